@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hedgerow/connectivity.h"
+#include "hedgerow/execution.h"
+#include "hedgerow/result.h"
+
+namespace hedgerow {
+
+/// The same mesh in the closed form: a half-edge with face -1 along each boundary edge, `next`
+/// running round each hole, `outgoing` of a boundary vertex being a boundary half-edge.
+///
+/// Numbering  Half-edges of faces keep their numbers. Boundary half-edges follow loop by loop, the
+///            loops in the order of the smallest half-edge opposite to them, so that `next` is +1
+///            but at the end of a loop.
+/// Fans       At a vertex with several open fans, `next` leads from each fan to itself: the boundary
+///            half-edge that enters fan i is followed by the one that leaves fan i. So each fan stays
+///            one rotation, and the `fans` table still lists the others.
+/// Complexity O(H); allocates every column anew. The mesh passed in is not changed.
+/// Errors     already_closed, too_many_elements.
+[[nodiscard]] Result<Connectivity> close_boundary(const Connectivity& mesh,
+                                                  const Execution& execution);
+
+/// The default form again: drops the half-edges with face -1. Inverse of `close_boundary`, to the
+/// last byte. Dangling edges have no place in the default form and are refused.
+///
+/// Complexity O(H). Errors already_open, not_canonical.
+[[nodiscard]] Result<Connectivity> open_boundary(const Connectivity& mesh,
+                                                 const Execution& execution);
+
+}  // namespace hedgerow

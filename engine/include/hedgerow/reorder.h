@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hedgerow/buffer.h"
+#include "hedgerow/connectivity.h"
+#include "hedgerow/execution.h"
+#include "hedgerow/positions.h"
+#include "hedgerow/result.h"
+
+namespace hedgerow {
+
+enum class ReorderMethod : std::uint8_t {
+  hilbert,        ///< vertices along a 3D Hilbert curve
+  morton,         ///< vertices along a 3D Z-order curve
+  breadth_first,  ///< vertices by breadth-first search over edges, lowest id first; no positions
+  vertex_cache,   ///< faces for a GPU's vertex cache (Sander, Nehab, Barczak 2007), then first use
+};
+
+/// How far apart in memory the mesh keeps what belongs together; smaller is better.
+struct Locality {
+  /// Mean |origin - target| over all half-edges, in vertices.
+  double mean_index_gap = 0;
+  /// 64-byte lines of a packed float3 array fetched per face when the faces are visited in order
+  /// with a 512-line direct-mapped cache. About 0.1 in a good order, near 3 in a random one.
+  double lines_per_face = 0;
+};
+
+[[nodiscard]] Locality locality(const Connectivity& mesh);
+
+/// A renumbering. Each array is a permutation; `new_to_old[i]` is the old number of new element i,
+/// so `new_values[i] = old_values[new_to_old[i]]` carries a caller's own array along.
+struct Reordering {
+  Buffer<Index> vertices_new_to_old;
+  Buffer<Index> vertices_old_to_new;
+  Buffer<Index> faces_new_to_old;
+  Buffer<Index> halfedges_new_to_old;
+};
+
+struct ReorderOutput {
+  Connectivity mesh;  ///< canonical, default form, as the builder would have made it
+  Reordering reordering;
+  Locality before;
+  Locality after;
+};
+
+/// Renumbers vertices, faces and half-edges together. Faces follow their smallest new vertex (stable),
+/// but for `vertex_cache`, where vertices follow the faces; corners keep their order in the face.
+///
+/// \pre `mesh` is in the default form.
+/// Complexity O(V + H) but for one radix sort of V keys. Isolated vertices come last, in old order,
+///            where there are no positions to place them by.
+/// Errors     null_pointer, bad_stride, count_mismatch (curves need positions), already_closed.
+/// Threads    Those of `execution`; the same order for all of them.
+[[nodiscard]] Result<ReorderOutput> reorder(const Connectivity& mesh, Positions positions,
+                                            ReorderMethod method, const Execution& execution);
+
+}  // namespace hedgerow

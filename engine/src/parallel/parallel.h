@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <utility>
+
+#include "hedgerow/execution.h"
+#include "hedgerow/index.h"
+
+/// The only interface between the engine and threads. parallel.cpp alone includes TBB.
+namespace hedgerow::par {
+
+namespace detail {
+/// Calls body(user, begin, end) over ranges that partition [0, count).
+void run(const Execution& execution, Index count, Index grain,
+         void (*body)(void* user, Index begin, Index end), void* user);
+}  // namespace detail
+
+/// Task size: the caller's if it asked for one, else the operation's own.
+[[nodiscard]] inline Index grain_of(const Execution& execution, Index own) noexcept {
+  return execution.grain() > 0 ? execution.grain() : own;
+}
+
+/// Calls `kernel(IndexRange)` over ranges that partition [0, count). `kernel` must be a pure
+/// function of its range that writes elements no other range writes.
+template <class Kernel>
+void for_each_range(const Execution& execution, Index count, Index grain, const Kernel& kernel) {
+  if (count <= 0) return;
+  detail::run(
+      execution, count, grain_of(execution, grain),
+      [](void* user, Index begin, Index end) {
+        (*static_cast<const Kernel*>(user))(IndexRange{begin, end});
+      },
+      const_cast<Kernel*>(&kernel));
+}
+
+/// How many tasks `for_each_task` runs at once at the most, so how many scratch slots it needs.
+[[nodiscard]] inline Index slot_count(const Execution& execution, Index task_count) noexcept {
+  const auto threads = static_cast<Index>(execution.threads());
+  return task_count < threads ? task_count : threads;
+}
+
+/// Calls `function(task, slot)` for every task in [0, count), handing tasks out in ascending order;
+/// calls with the same slot never overlap, so slot s may own scratch memory.
+template <class Function>
+void for_each_task(const Execution& execution, Index count, const Function& function) {
+  std::atomic<Index> next{0};
+  for_each_range(execution.with_grain(1), slot_count(execution, count), 1, [&](IndexRange slots) {
+    for (Index slot = slots.begin; slot < slots.end; ++slot) {
+      for (Index task = next.fetch_add(1); task < count; task = next.fetch_add(1)) {
+        function(task, slot);
+      }
+    }
+  });
+}
+
+/// Folds `kernel(IndexRange) -> T` over [0, count) with `join`, which must be exactly associative
+/// and commutative (integer sums, min, max; not float sums): then the result is the same for every
+/// execution.
+template <class T, class Kernel, class Join>
+[[nodiscard]] T reduce(const Execution& execution, Index count, Index grain, const Kernel& kernel,
+                       const Join& join) {
+  const Index size = grain_of(execution, grain);
+  const Index block_count = count > 0 ? (count - 1) / size + 1 : 0;
+  if (block_count <= 1 || execution.threads() == 1) {
+    return count > 0 ? kernel(IndexRange{0, count}) : T{};
+  }
+  std::atomic_flag lock = ATOMIC_FLAG_INIT;
+  T total{};
+  for_each_range(execution, count, grain, [&](IndexRange range) {
+    const T part = kernel(range);
+    while (lock.test_and_set(std::memory_order_acquire)) {
+    }
+    total = join(total, part);
+    lock.clear(std::memory_order_release);
+  });
+  return total;
+}
+
+}  // namespace hedgerow::par
