@@ -1,0 +1,19 @@
+# hedgerow_add_suites(TARGET): one ctest entry for each suite of a GoogleTest executable, found by
+# asking the executable after it is built. One process per suite instead of one per test keeps a run
+# of thousands of tests quick; a suite whose tests were all skipped is reported as skipped.
+function(hedgerow_add_suites target)
+  set(list "${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake")
+  add_custom_command(TARGET ${target} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -D "PROGRAM=$<TARGET_FILE:${target}>" -D "LIST=${list}"
+            -P "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/list_suites.cmake"
+    BYPRODUCTS "${list}"
+    VERBATIM)
+  set(include "${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake")
+  file(WRITE "${include}"
+    "if(EXISTS \"${list}\")\n"
+    "  include(\"${list}\")\n"
+    "else()\n"
+    "  add_test(${target}_is_not_built ${target}_is_not_built)\n"
+    "endif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${include}")
+endfunction()
