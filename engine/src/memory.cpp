@@ -25,8 +25,7 @@ void* allocate_bytes(std::size_t bytes) {
   if (bytes == 0) return nullptr;
   if (bytes > static_cast<std::size_t>(PTRDIFF_MAX) - 2 * kHugePage) throw std::bad_alloc();
   const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : kCacheLine;
-  const std::size_t size =
-      (bytes + kReadableTailBytes + alignment - 1) / alignment * alignment;
+  const std::size_t size = (bytes + kReadableTailBytes + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, size);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)

@@ -12,9 +12,10 @@ namespace hedgerow {
 /// Numbering  Half-edges of faces keep their numbers. Boundary half-edges follow loop by loop, the
 ///            loops in the order of the smallest half-edge opposite to them, so that `next` is +1
 ///            but at the end of a loop.
-/// Fans       At a vertex with several open fans, `next` leads from each fan to itself: the boundary
-///            half-edge that enters fan i is followed by the one that leaves fan i. So each fan stays
-///            one rotation, and the `fans` table still lists the others.
+/// Fans       At a vertex with several open fans, `next` leads from each fan to itself: the
+/// boundary
+///            half-edge that enters fan i is followed by the one that leaves fan i. So each fan
+///            stays one rotation, and the `fans` table still lists the others.
 /// Complexity O(H); allocates every column anew. The mesh passed in is not changed.
 /// Errors     already_closed, too_many_elements.
 [[nodiscard]] Result<Connectivity> close_boundary(const Connectivity& mesh,

@@ -17,8 +17,9 @@ namespace detail {
 void free_bytes(void* memory) noexcept;
 }  // namespace detail
 
-/// Bytes behind the last element of every `Buffer` that may be read (not written): a 16-byte load of
-/// the last float3 stays inside the allocation, which is what Embree asks of a shared vertex buffer.
+/// Bytes behind the last element of every `Buffer` that may be read (not written): a 16-byte load
+/// of the last float3 stays inside the allocation, which is what Embree asks of a shared vertex
+/// buffer.
 inline constexpr std::size_t kReadableTailBytes = 64;
 
 /// Owning array of trivial values, 64-byte aligned, *not* initialised on construction.

@@ -91,7 +91,8 @@ class Connectivity {
   }
   /// True if `polygons()` may be called: `next`, `face` and `first` are stored.
   [[nodiscard]] bool is_explicit() const noexcept { return !columns_.first.empty(); }
-  /// True if every face is a triangle and half-edge 3f + k leaves corner k of face f, in either form.
+  /// True if every face is a triangle and half-edge 3f + k leaves corner k of face f, in either
+  /// form.
   [[nodiscard]] bool is_triangle_mesh() const noexcept { return columns_.all_triangles; }
 
   /// \pre is_implicit()

@@ -9,9 +9,9 @@
 
 namespace hedgerow {
 
-/// 64-bit hash of origin, next, opposite, face, outgoing, first and the fan table: equal meshes have
-/// equal digests whether the columns are stored or implicit, for 32- and 64-bit indices, and for
-/// every thread count. Not cryptographic. Complexity O(V + H + F).
+/// 64-bit hash of origin, next, opposite, face, outgoing, first and the fan table: equal meshes
+/// have equal digests whether the columns are stored or implicit, for 32- and 64-bit indices, and
+/// for every thread count. Not cryptographic. Complexity O(V + H + F).
 [[nodiscard]] std::uint64_t digest(const Connectivity& mesh, const Execution& execution);
 
 /// The same hash over raw bytes, for results such as normals.

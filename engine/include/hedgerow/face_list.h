@@ -48,9 +48,12 @@ struct FaceList {
   template <class Integer>
   [[nodiscard]] static FaceList triangles(std::span<const Integer> corners,
                                           std::int64_t vertex_count) noexcept {
-    return {corners.data(),         format_of<Integer>(),
-            3 * sizeof(Integer),    nullptr,
-            static_cast<std::int64_t>(corners.size() / 3), vertex_count};
+    return {corners.data(),
+            format_of<Integer>(),
+            3 * sizeof(Integer),
+            nullptr,
+            static_cast<std::int64_t>(corners.size() / 3),
+            vertex_count};
   }
   /// Packed polygons. \pre offsets is not empty.
   template <class Integer>

@@ -69,8 +69,8 @@ inline constexpr double kAngleErrorBound = 5e-7;
 
 /// One unit normal per vertex by walking the half-edges round it (default or closed form).
 ///
-/// Each vertex reads its neighbours and writes itself, so any partition of the vertices is race-free.
-/// The sum runs over its corners in ascending half-edge id, in float: the same bits as
+/// Each vertex reads its neighbours and writes itself, so any partition of the vertices is
+/// race-free. The sum runs over its corners in ascending half-edge id, in float: the same bits as
 /// `scatter_vertex_normals`. Polygons read face vectors that a first pass leaves in the workspace.
 /// Complexity O(V + H). Bytes a vertex on a closed triangle mesh: 76.
 /// Errors     null_pointer, bad_stride, count_mismatch, scratch_too_small.
@@ -83,18 +83,18 @@ inline constexpr double kAngleErrorBound = 5e-7;
                                                               const NormalOptions& options,
                                                               const Execution& execution);
 
-/// One unit normal per vertex from the face list alone: each face adds to its corners, then each sum
-/// is normalised.
+/// One unit normal per vertex from the face list alone: each face adds to its corners, then each
+/// sum is normalised.
 ///
 /// Race-free in parallel because a block of vertices is owned by one task, which visits the runs of
 /// faces that touch the block in ascending order and adds to its own vertices only; so the order of
-/// each sum is that of the serial loop. Faces on the edge between blocks are computed once for each.
-/// Complexity O(V + H) for faces in a local order. On shuffled input every block visits every face:
-/// O(threads * H), which two threads still gain from.
-/// Bytes a vertex on a closed triangle mesh: 48.
-/// Errors     null_pointer, bad_stride, count_mismatch, index_out_of_range, scratch_too_small.
-[[nodiscard]] Result<NormalStats> scatter_vertex_normals(const FaceList& faces,
-                                                         Positions positions, NormalsOut out,
+/// each sum is that of the serial loop. Faces on the edge between blocks are computed once for
+/// each. Complexity O(V + H) for faces in a local order. On shuffled input every block visits every
+/// face: O(threads * H), which two threads still gain from. Bytes a vertex on a closed triangle
+/// mesh: 48. Errors     null_pointer, bad_stride, count_mismatch, index_out_of_range,
+/// scratch_too_small.
+[[nodiscard]] Result<NormalStats> scatter_vertex_normals(const FaceList& faces, Positions positions,
+                                                         NormalsOut out,
                                                          const NormalOptions& options,
                                                          const Execution& execution,
                                                          Workspace& workspace);

@@ -20,7 +20,8 @@ struct Positions {
   }
 };
 
-/// Where normals are written: float x, y, z each `stride_bytes` apart; bytes between are left alone.
+/// Where normals are written: float x, y, z each `stride_bytes` apart; bytes between are left
+/// alone.
 struct NormalsOut {
   float* data = nullptr;
   std::int64_t count = 0;

@@ -44,8 +44,9 @@ struct ReorderOutput {
   Locality after;
 };
 
-/// Renumbers vertices, faces and half-edges together. Faces follow their smallest new vertex (stable),
-/// but for `vertex_cache`, where vertices follow the faces; corners keep their order in the face.
+/// Renumbers vertices, faces and half-edges together. Faces follow their smallest new vertex
+/// (stable), but for `vertex_cache`, where vertices follow the faces; corners keep their order in
+/// the face.
 ///
 /// \pre `mesh` is in the default form.
 /// Complexity O(V + H) but for one radix sort of V keys. Isolated vertices come last, in old order,

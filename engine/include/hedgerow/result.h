@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+
 #include <tl/expected.hpp>
 
 #include "hedgerow/index.h"
@@ -9,24 +10,24 @@ namespace hedgerow {
 
 /// What can go wrong with data. Bugs of the caller are asserts; no memory is `std::bad_alloc`.
 enum class ErrorCode : std::uint8_t {
-  index_out_of_range,   ///< element = face; value = the index; limit = the vertex count
-  too_few_corners,      ///< element = face; value = its corner count; limit = 3
-  repeated_vertex,      ///< element = face; value = the vertex
-  duplicate_face,       ///< element = face; value = the earlier face with the same vertices
-  nonmanifold_edge,     ///< element = smallest half-edge; value = half-edges on the edge; limit = 2
-  inconsistent_edge,    ///< element = smallest half-edge; value = 2
-  nonmanifold_vertex,   ///< element = vertex; value = number of fans; limit = 1
-  isolated_vertex,      ///< element = vertex
-  too_many_elements,    ///< value = the count asked for; limit = the largest that fits an `Index`
-  bad_face_offsets,     ///< element = first face whose offsets decrease or leave the corner array
-  null_pointer,         ///< an array with elements has no address
-  bad_stride,           ///< value = the stride in bytes; limit = the smallest that is allowed
-  count_mismatch,       ///< value = elements given; limit = elements needed
-  unsupported_policy,   ///< element = DefectKind; value = Action: this pair has no meaning
-  scratch_too_small,    ///< value = bytes given; limit = bytes needed
-  already_closed,       ///< the mesh already has boundary half-edges
-  already_open,         ///< the mesh has no boundary half-edges to remove
-  not_canonical,        ///< the operation needs the half-edges of each face in one run (I8)
+  index_out_of_range,  ///< element = face; value = the index; limit = the vertex count
+  too_few_corners,     ///< element = face; value = its corner count; limit = 3
+  repeated_vertex,     ///< element = face; value = the vertex
+  duplicate_face,      ///< element = face; value = the earlier face with the same vertices
+  nonmanifold_edge,    ///< element = smallest half-edge; value = half-edges on the edge; limit = 2
+  inconsistent_edge,   ///< element = smallest half-edge; value = 2
+  nonmanifold_vertex,  ///< element = vertex; value = number of fans; limit = 1
+  isolated_vertex,     ///< element = vertex
+  too_many_elements,   ///< value = the count asked for; limit = the largest that fits an `Index`
+  bad_face_offsets,    ///< element = first face whose offsets decrease or leave the corner array
+  null_pointer,        ///< an array with elements has no address
+  bad_stride,          ///< value = the stride in bytes; limit = the smallest that is allowed
+  count_mismatch,      ///< value = elements given; limit = elements needed
+  unsupported_policy,  ///< element = DefectKind; value = Action: this pair has no meaning
+  scratch_too_small,   ///< value = bytes given; limit = bytes needed
+  already_closed,      ///< the mesh already has boundary half-edges
+  already_open,        ///< the mesh has no boundary half-edges to remove
+  not_canonical,       ///< the operation needs the half-edges of each face in one run (I8)
 };
 
 /// Stable lower-case word-with-dashes for messages and JSON, e.g. "index-out-of-range".

@@ -9,7 +9,8 @@
 
 namespace hedgerow {
 
-/// Vertex positions and faces without connectivity: what readers and generators make and `build` takes.
+/// Vertex positions and faces without connectivity: what readers and generators make and `build`
+/// takes.
 struct Soup {
   Buffer<float> xyz;      ///< three floats a vertex
   Buffer<Index> corners;  ///< vertex of each corner, face by face

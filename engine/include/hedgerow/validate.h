@@ -24,10 +24,10 @@ struct Violation {
 /// Checks I1 to I8 on every element and returns all violations, sorted by invariant, element kind,
 /// element and relation; empty if the mesh is sound.
 ///
-/// A mesh whose columns hold any values at all may be passed: nothing is followed before it is known
-/// to be in range, and no walk is longer than the mesh.
-/// Complexity O(V + H + F), no cap on valence or degree; reads every column about three times.
-/// Threads    Those of `execution`; the same list for all of them.
+/// A mesh whose columns hold any values at all may be passed: nothing is followed before it is
+/// known to be in range, and no walk is longer than the mesh. Complexity O(V + H + F), no cap on
+/// valence or degree; reads every column about three times. Threads    Those of `execution`; the
+/// same list for all of them.
 [[nodiscard]] std::vector<Violation> validate(const Connectivity& mesh, const Execution& execution);
 
 }  // namespace hedgerow

@@ -1,0 +1,86 @@
+#include "build/survey.h"
+
+#include <algorithm>
+
+#include "kernels/corner_blocks.h"
+#include "parallel/parallel.h"
+
+namespace hedgerow::detail {
+
+namespace {
+
+// 24,000 corners of 16 bytes are 384 KB: half of a small second-level cache. PERF.md, "build".
+constexpr std::int64_t kCornersPerBlock = 24'000;
+constexpr Index kMaxBlocks = 1 << 16;
+constexpr int kMinShift = 6;
+constexpr Index kGrain = 32;  // runs a task: 16,384 faces
+
+bool is_wide(const kernels::RunBlocks& run) noexcept {
+  return run.count > kernels::RunBlocks::kCapacity;
+}
+
+template <class Visit>
+void for_each_block(const kernels::RunBlocks& run, Index block_count, const Visit& visit) {
+  if (is_wide(run)) {
+    for (Index b = 0; b < block_count; ++b) visit(b);
+  } else {
+    for (Index i = 0; i < run.count; ++i) visit(run.block[i]);
+  }
+}
+
+}  // namespace
+
+Blocks blocks_of(const kernels::FaceColumns& faces) noexcept {
+  if (faces.vertex_count == 0) return {};
+  const auto vertices = static_cast<std::int64_t>(faces.vertex_count);
+  const std::int64_t valence = std::max<std::int64_t>(1, faces.halfedge_count() / vertices);
+  int shift = kMinShift;
+  while ((std::int64_t{2} << shift) * valence <= kCornersPerBlock ||
+         (vertices - 1) >> shift >= kMaxBlocks) {
+    ++shift;
+  }
+  return {shift, static_cast<Index>(((vertices - 1) >> shift) + 1)};
+}
+
+Survey survey(const kernels::FaceColumns& faces, const Execution& execution) {
+  Survey result;
+  result.blocks = blocks_of(faces);
+  const Index run_count = (faces.face_count + Survey::kRunLength - 1) / Survey::kRunLength;
+  result.runs = Buffer<kernels::RunBlocks>(static_cast<std::size_t>(run_count));
+  result.check = par::reduce<kernels::FaceCheck>(
+      execution, run_count, kGrain,
+      [&](IndexRange range) {
+        return kernels::check_runs(range, faces, Survey::kRunLength, result.blocks.shift,
+                                   result.runs.data());
+      },
+      [](kernels::FaceCheck a, kernels::FaceCheck b) { return a + b; });
+  std::int64_t scanned = 0;
+  for (const kernels::RunBlocks& run : result.runs) {
+    scanned += is_wide(run) ? result.blocks.count : run.count;
+  }
+  if (run_count > 0) {
+    result.scan_per_mille = 1000 * scanned * Survey::kRunLength / faces.face_count;
+  }
+  return result;
+}
+
+BlockRuns runs_of_blocks(const Survey& survey) {
+  const Index block_count = survey.blocks.count;
+  BlockRuns result;
+  result.first = Buffer<Index>(static_cast<std::size_t>(block_count) + 1, Index{0});
+  for (const kernels::RunBlocks& run : survey.runs) {
+    for_each_block(run, block_count, [&](Index b) { ++result.first[static_cast<std::size_t>(b)]; });
+  }
+  const Index total = kernels::exclusive_scan(result.first.data(), block_count + 1);
+  result.runs = Buffer<Index>(static_cast<std::size_t>(total));
+  Buffer<Index> ends = Buffer<Index>::copy_of(result.first.span());
+  for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+    for_each_block(survey.runs[r], block_count, [&](Index b) {
+      result.runs[static_cast<std::size_t>(ends[static_cast<std::size_t>(b)]++)] =
+          static_cast<Index>(r);
+    });
+  }
+  return result;
+}
+
+}  // namespace hedgerow::detail

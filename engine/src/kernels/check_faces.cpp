@@ -1,0 +1,79 @@
+#include "kernels/check_faces.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace hedgerow::kernels {
+
+namespace {
+
+using Unsigned = std::make_unsigned_t<Index>;
+
+// One comparison catches negative and too large.
+bool in_range(Index v, Index vertex_count) noexcept {
+  return static_cast<Unsigned>(v) < static_cast<Unsigned>(vertex_count);
+}
+
+bool is_bad_triangle(const Index* c, Index vertex_count) noexcept {
+  return !in_range(c[0], vertex_count) || !in_range(c[1], vertex_count) ||
+         !in_range(c[2], vertex_count) || c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+}
+
+FaceCheck check_polygon(const Index* c, Index degree, Index vertex_count) noexcept {
+  if (degree < 3) return {1, 0};
+  for (Index i = 0; i < degree; ++i) {
+    if (!in_range(c[i], vertex_count)) return {1, 0};
+  }
+  if (degree > kPairwiseDegree) return {0, 1};
+  for (Index i = 1; i < degree; ++i) {
+    if (std::find(c, c + i, c[i]) != c + i) return {1, 0};
+  }
+  return {};
+}
+
+FaceCheck check_face(const FaceColumns& faces, Index f) noexcept {
+  if (faces.is_triangles()) {
+    return {is_bad_triangle(faces.corners + 3 * f, faces.vertex_count), 0};
+  }
+  return check_polygon(faces.corners + faces.first[f], faces.degree(f), faces.vertex_count);
+}
+
+// The most recent block is the likeliest, so the search runs backwards.
+void add_block(RunBlocks& run, Index block) noexcept {
+  if (run.count > RunBlocks::kCapacity) return;
+  for (Index i = run.count; i-- > 0;) {
+    if (run.block[i] == block) return;
+  }
+  if (run.count < RunBlocks::kCapacity) run.block[run.count] = block;
+  ++run.count;
+}
+
+}  // namespace
+
+FaceCheck check_faces(IndexRange range, const FaceColumns& faces) noexcept {
+  FaceCheck sum;
+  for (Index f = range.begin; f < range.end; ++f) sum = sum + check_face(faces, f);
+  return sum;
+}
+
+FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length, int block_shift,
+                     RunBlocks* runs) noexcept {
+  FaceCheck sum;
+  for (Index r = range.begin; r < range.end; ++r) {
+    RunBlocks& run = runs[r];
+    run.count = 0;
+    Index last = kInvalidIndex;
+    const Index begin = r * run_length;
+    const Index end = std::min(faces.face_count, begin + run_length);
+    for (Index f = begin; f < end; ++f) sum = sum + check_face(faces, f);
+    for (Index h = faces.begin(begin); h < faces.begin(end); ++h) {
+      const Index block = faces.corners[h] >> block_shift;
+      if (block == last) continue;
+      last = block;
+      add_block(run, block);
+    }
+  }
+  return sum;
+}
+
+}  // namespace hedgerow::kernels

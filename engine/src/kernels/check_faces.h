@@ -1,0 +1,34 @@
+#pragma once
+
+#include "kernels/face_columns.h"
+
+namespace hedgerow::kernels {
+
+/// Polygons of a higher degree are not searched for a repeated vertex pair by pair.
+inline constexpr Index kPairwiseDegree = 32;
+
+struct FaceCheck {
+  Index bad_count = 0;  ///< faces with an index out of range, too few corners or a repeated vertex
+  Index large_count = 0;  ///< good so far, but of more than kPairwiseDegree corners
+
+  friend FaceCheck operator+(FaceCheck a, FaceCheck b) noexcept {
+    return {a.bad_count + b.bad_count, a.large_count + b.large_count};
+  }
+};
+
+/// Counts the faces in `range` that connectivity cannot hold. Reads 4 bytes a corner.
+[[nodiscard]] FaceCheck check_faces(IndexRange range, const FaceColumns& faces) noexcept;
+
+/// Which blocks of 2^block_shift vertices a run of faces touches.
+struct RunBlocks {
+  static constexpr Index kCapacity = 15;
+  Index count = 0;  ///< kCapacity + 1: more than `block` can hold
+  Index block[kCapacity];
+};
+
+/// As `check_faces`, and fills `runs[r]` for each run r of `run_length` faces in `range` (of runs).
+/// Runs write disjoint elements. A run with a bad face may list blocks that do not exist.
+[[nodiscard]] FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length,
+                                   int block_shift, RunBlocks* runs) noexcept;
+
+}  // namespace hedgerow::kernels
