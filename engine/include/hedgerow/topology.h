@@ -25,8 +25,12 @@ using FanTable = std::span<const FanStart>;
 /// The entries of `fans` that belong to `v`. O(log fans).
 [[nodiscard]] inline FanTable extra_fans(FanTable fans, VertexId v) noexcept {
   if (fans.empty()) return {};
-  const auto [first, last] =
-      std::ranges::equal_range(fans, v, {}, [](FanStart fan) { return fan.vertex; });
+  struct ByVertex {
+    bool operator()(FanStart fan, VertexId vertex) const noexcept { return fan.vertex < vertex; }
+    bool operator()(VertexId vertex, FanStart fan) const noexcept { return vertex < fan.vertex; }
+  };
+  // Not std::ranges: clang 14 cannot compile a subrange of the gcc 12 library.
+  const auto [first, last] = std::equal_range(fans.begin(), fans.end(), v, ByVertex{});
   return {first, last};
 }
 
