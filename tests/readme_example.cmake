@@ -1,0 +1,28 @@
+# hedgerow_extract(FILE LANGUAGE OUT): the first block of FILE fenced as LANGUAGE, in variable OUT.
+# Configuring runs again when FILE changes.
+function(hedgerow_extract file language out)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  file(READ "${file}" text)
+  set(fence "```${language}\n")
+  string(FIND "${text}" "${fence}" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "${file} has no block fenced as ${language}")
+  endif()
+  string(LENGTH "${fence}" length)
+  math(EXPR begin "${begin} + ${length}")
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(FIND "${text}" "```\n" end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+# hedgerow_write(FILE TEXT): writes FILE unless it holds TEXT already.
+function(hedgerow_write file text)
+  if(EXISTS "${file}")
+    file(READ "${file}" old)
+    if(old STREQUAL text)
+      return()
+    endif()
+  endif()
+  file(WRITE "${file}" "${text}")
+endfunction()
