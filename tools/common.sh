@@ -1,3 +1,4 @@
+# shellcheck shell=sh disable=SC2154
 # Sourced by the scripts beside this file (POSIX sh). Wants `root`, the top of the source tree.
 
 say() { printf '%s\n' "$*" >&2; }
