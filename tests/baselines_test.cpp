@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "baselines/bandwidth.h"
+#include "baselines/pointer_mesh.h"
+#include "baselines/struct_mesh.h"
+#include "hedgerow/build.h"
+#include "hedgerow/face_list.h"
+
+namespace hedgerow::test {
+namespace {
+
+using baselines::PointerHalfedgeMesh;
+using baselines::StructHalfedgeMesh;
+
+struct Input {
+  std::vector<float> xyz;
+  std::vector<Index> corners;
+  std::vector<Index> offsets;
+
+  [[nodiscard]] FaceList faces() const {
+    const auto vertex_count = static_cast<std::int64_t>(xyz.size() / 3);
+    return offsets.empty() ? FaceList::triangles<Index>(corners, vertex_count)
+                           : FaceList::polygons<Index>(corners, offsets, vertex_count);
+  }
+  [[nodiscard]] Positions positions() const {
+    return {xyz.data(), static_cast<std::int64_t>(xyz.size() / 3)};
+  }
+};
+
+Input tetrahedron() {
+  return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, {}};
+}
+
+/// Two triangles and a quad in one row, lying in z = 0, and one vertex unused.
+Input strip() {
+  return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0, 9, 9, 9},
+          {0, 1, 2, 1, 3, 2, 1, 4, 5, 3},
+          {0, 3, 6, 10}};
+}
+
+/// Triangles over few vertices, so that edges with one, two and more half-edges of any direction
+/// occur; no triangle has a vertex twice.
+Input random_triangles(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<Index> vertex(0, 11);
+  std::uniform_real_distribution<float> coordinate(-1, 1);
+  Input input;
+  for (int i = 0; i < 36; ++i) input.xyz.push_back(coordinate(random));
+  while (input.corners.size() < 60) {
+    const std::array<Index, 3> face = {vertex(random), vertex(random), vertex(random)};
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    input.corners.insert(input.corners.end(), face.begin(), face.end());
+  }
+  return input;
+}
+
+template <class Mesh>
+class Baseline : public testing::Test {};
+using Meshes = testing::Types<PointerHalfedgeMesh, StructHalfedgeMesh>;
+TYPED_TEST_SUITE(Baseline, Meshes);
+
+TYPED_TEST(Baseline, PairsTheHalfedgesOfATetrahedron) {
+  const Input input = tetrahedron();
+  const TypeParam mesh(input.faces(), input.positions());
+  EXPECT_EQ(mesh.origin(), input.corners);
+  EXPECT_EQ(mesh.opposite(), (std::vector<Index>{9, 6, 3, 2, 8, 10, 1, 11, 4, 0, 5, 7}));
+  EXPECT_EQ(mesh.outgoing(), (std::vector<Index>{0, 2, 1, 5}));
+  EXPECT_EQ(mesh.boundary_loop_count(), 0);
+  EXPECT_EQ(mesh.component_count(), 1);
+}
+
+TYPED_TEST(Baseline, LeavesTheBoundaryOfPolygonsWithoutOpposite) {
+  const Input input = strip();
+  const TypeParam mesh(input.faces(), input.positions());
+  EXPECT_EQ(mesh.face_count(), 3);
+  EXPECT_EQ(mesh.opposite(), (std::vector<Index>{-1, 5, -1, 9, -1, 1, -1, -1, -1, 3}));
+  // Each boundary vertex starts its fan: the half-edge before its outgoing one has no opposite.
+  EXPECT_EQ(mesh.outgoing(), (std::vector<Index>{0, 1, 5, 9, 7, 8, -1}));
+  EXPECT_EQ(mesh.boundary_loop_count(), 1);
+  EXPECT_EQ(mesh.component_count(), 1);
+}
+
+TYPED_TEST(Baseline, PairsNothingOnAnEdgeWithThreeHalfedgesOrTwoThatRunTheSameWay) {
+  Input input;
+  input.xyz.assign(15, 0.0F);
+  input.corners = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+  EXPECT_EQ(TypeParam(input.faces(), input.positions()).opposite(), std::vector<Index>(9, -1));
+  input.corners = {0, 1, 2, 0, 1, 3};
+  EXPECT_EQ(TypeParam(input.faces(), input.positions()).opposite(), std::vector<Index>(6, -1));
+}
+
+TYPED_TEST(Baseline, SumsTheIdsOfTheOneRing) {
+  const Input input = strip();
+  const TypeParam mesh(input.faces(), input.positions());
+  std::vector<std::uint32_t> sums(7, 99);
+  mesh.fill_one_ring_sums(sums);
+  EXPECT_EQ(sums, (std::vector<std::uint32_t>{1 + 2, 0 + 2 + 3 + 4, 0 + 1 + 3, 1 + 2 + 5, 1 + 5,
+                                              3 + 4, 0}));
+}
+
+TYPED_TEST(Baseline, GivesAFlatPatchTheSameNormalEverywhereWithEveryWeight) {
+  const Input input = strip();
+  TypeParam mesh(input.faces(), input.positions());
+  mesh.compute_face_normals();
+  EXPECT_EQ(mesh.face_normals(), (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+  for (const NormalWeight weight :
+       {NormalWeight::uniform, NormalWeight::area, NormalWeight::angle, NormalWeight::max}) {
+    mesh.compute_vertex_normals(weight);
+    const std::vector<float> normals = mesh.vertex_normals();
+    for (std::size_t v = 0; v < 7; ++v) {
+      EXPECT_FLOAT_EQ(normals[3 * v + 2], v == 6 ? 0.0F : 1.0F) << "vertex " << v;
+    }
+  }
+}
+
+TYPED_TEST(Baseline, WeighsTheFacesOfACornerAsAsked) {
+  // At vertex 0 all three corners are right angles between unit edges, so all weights are equal.
+  const Input input = tetrahedron();
+  TypeParam mesh(input.faces(), input.positions());
+  mesh.compute_face_normals();
+  for (const NormalWeight weight :
+       {NormalWeight::uniform, NormalWeight::area, NormalWeight::angle, NormalWeight::max}) {
+    mesh.compute_vertex_normals(weight);
+    const std::vector<float> normals = mesh.vertex_normals();
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(normals[i], -0.57735027F, 1e-6F);
+  }
+}
+
+TEST(Baselines, AgreeWithEachOtherAndTheEngineOnRandomTriangles) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Input input = random_triangles(seed);
+    PointerHalfedgeMesh pointers(input.faces(), input.positions());
+    StructHalfedgeMesh structs(input.faces(), input.positions());
+    EXPECT_EQ(pointers.opposite(), structs.opposite());
+    EXPECT_EQ(pointers.outgoing(), structs.outgoing());
+    EXPECT_EQ(pointers.boundary_loop_count(), structs.boundary_loop_count());
+    EXPECT_EQ(pointers.component_count(), structs.component_count());
+    const Result<BuildOutput> built = build(input.faces(), BuildOptions{}, Execution::serial());
+    ASSERT_TRUE(built.has_value());
+    EXPECT_TRUE(std::ranges::equal(pointers.opposite(), built->mesh.opposite()));
+    const std::vector<Index> outgoing = pointers.outgoing();
+    for (Index v = 0; v < 12; ++v) {
+      const bool has_one_fan = extra_fans(built->mesh.fans(), VertexId(v)).empty();
+      if (!has_one_fan) continue;
+      EXPECT_EQ(outgoing[static_cast<std::size_t>(v)],
+                built->mesh.outgoing()[static_cast<std::size_t>(v)])
+          << "vertex " << v;
+    }
+    pointers.compute_face_normals();
+    structs.compute_face_normals();
+    EXPECT_EQ(pointers.face_normals(), structs.face_normals());
+    pointers.compute_vertex_normals(NormalWeight::angle);
+    structs.compute_vertex_normals(NormalWeight::angle);
+    EXPECT_EQ(pointers.vertex_normals(), structs.vertex_normals());
+  }
+}
+
+TEST(StreamArrays, LeaveTheRightValuesForAnyNumberOfThreads) {
+  using baselines::StreamKernel;
+  baselines::StreamArrays arrays(std::size_t{100'000});
+  EXPECT_EQ(arrays.array_bytes(), 98'304U);
+  for (const StreamKernel kernel : {StreamKernel::read, StreamKernel::copy, StreamKernel::triad,
+                                    StreamKernel::copy_streaming, StreamKernel::triad_streaming}) {
+    for (const int threads : {1, 2}) {
+      EXPECT_GT(arrays.run(kernel, threads), 0.0);
+      EXPECT_TRUE(arrays.is_correct()) << baselines::name(kernel) << ", " << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgerow::test
