@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Error.hpp>
+
+#include "exit_status.h"
+#include "failure.h"
+#include "options.h"
+#include "run.h"
+
+namespace hedgerow::tool {
+
+/// The command line: which commands there are, what they take and what each one does.
+class Program {
+ public:
+  using Body = std::function<ExitStatus(Run&)>;
+
+  Program();
+
+  /// A new command with the options of every command. `example` is shown at the end of its help.
+  CLI::App& add_command(const std::string& name, const std::string& summary,
+                        const std::string& example, Body body);
+
+  /// Parses the arguments and runs the command they name. Throws nothing.
+  [[nodiscard]] ExitStatus run(int argument_count, const char* const* arguments);
+
+ private:
+  [[nodiscard]] ExitStatus run_command(const std::vector<std::string>& arguments);
+  [[nodiscard]] Failure usage_failure(const CLI::ParseError& error) const;
+  [[nodiscard]] std::string unknown_command(const std::vector<std::string>& arguments) const;
+
+  CLI::App app_;
+  Options options_;
+  std::vector<std::pair<CLI::App*, Body>> commands_;
+};
+
+}  // namespace hedgerow::tool

@@ -1,0 +1,63 @@
+#include "progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace hedgerow::tool {
+namespace {
+
+constexpr auto kDelay = std::chrono::milliseconds(500);
+constexpr auto kPeriod = std::chrono::milliseconds(100);
+constexpr int kBarWidth = 24;
+
+}  // namespace
+
+void Progress::begin(int step_count) {
+  finish();
+  step_count_ = std::max(step_count, 1);
+  steps_begun_ = 0;
+  label_.clear();
+  start_ = std::chrono::steady_clock::now();
+  if (!enabled_) return;
+  finished_ = false;
+  thread_ = std::thread([this] { draw_until_finished(); });
+}
+
+void Progress::step(std::string label) {
+  const std::scoped_lock lock(mutex_);
+  ++steps_begun_;
+  label_ = std::move(label);
+}
+
+void Progress::finish() {
+  {
+    const std::scoped_lock lock(mutex_);
+    finished_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Progress::draw_until_finished() {
+  std::unique_lock lock(mutex_);
+  const auto is_finished = [this] { return finished_; };
+  if (wake_.wait_for(lock, kDelay, is_finished)) return;
+  do {
+    std::fputs(line().c_str(), stderr);
+    std::fflush(stderr);
+  } while (!wake_.wait_for(lock, kPeriod, is_finished));
+  std::fputs("\r\x1b[K", stderr);
+  std::fflush(stderr);
+}
+
+std::string Progress::line() const {
+  const int done = std::clamp(steps_begun_ - 1, 0, step_count_);
+  const int filled = kBarWidth * done / step_count_;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  return fmt::format("\r\x1b[K[{:=<{}}{:<{}}] {:3}%  {:.1f} s  {}", "", filled, "",
+                     kBarWidth - filled, 100 * done / step_count_, elapsed.count(), label_);
+}
+
+}  // namespace hedgerow::tool
