@@ -7,9 +7,9 @@
 // Builds a tetrahedron and walks round its first vertex: done when three faces were met.
 int main() {
   const std::array<hedgerow::Index, 12> corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-  const auto built = hedgerow::build(
-      hedgerow::FaceList::triangles(std::span<const hedgerow::Index>(corners), 4), {},
-      hedgerow::Execution::current_arena());
+  const auto built =
+      hedgerow::build(hedgerow::FaceList::triangles(std::span<const hedgerow::Index>(corners), 4),
+                      {}, hedgerow::Execution::current_arena());
   if (!built) {
     std::printf("%s\n", hedgerow::name(built.error().code));
     return 1;
