@@ -20,7 +20,7 @@ enum class BuildStrategy : std::uint8_t {
 };
 
 struct BuildOptions {
-  Policies policies;
+  Policies policies{};
   /// View the caller's corner (and offset) arrays as the `origin` (and `first`) column instead of
   /// copying them. They must then outlive the mesh and stay unchanged. Ignored where the faces are
   /// not `FaceList::is_native`, or a policy changed the face list.
