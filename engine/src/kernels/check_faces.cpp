@@ -31,13 +31,6 @@ FaceCheck check_polygon(const Index* c, Index degree, Index vertex_count) noexce
   return {};
 }
 
-FaceCheck check_face(const FaceColumns& faces, Index f) noexcept {
-  if (faces.is_triangles()) {
-    return {is_bad_triangle(faces.corners + 3 * f, faces.vertex_count), 0};
-  }
-  return check_polygon(faces.corners + faces.first[f], faces.degree(f), faces.vertex_count);
-}
-
 // The most recent block is the likeliest, so the search runs backwards.
 void add_block(RunBlocks& run, Index block) noexcept {
   if (run.count > RunBlocks::kCapacity) return;
@@ -50,30 +43,52 @@ void add_block(RunBlocks& run, Index block) noexcept {
 
 }  // namespace
 
+FaceCheck check_face(const FaceColumns& faces, Index f) noexcept {
+  if (faces.is_triangles()) {
+    return {is_bad_triangle(faces.corners + 3 * f, faces.vertex_count), 0};
+  }
+  return check_polygon(faces.corners + faces.first[f], faces.degree(f), faces.vertex_count);
+}
+
 FaceCheck check_faces(IndexRange range, const FaceColumns& faces) noexcept {
   FaceCheck sum;
   for (Index f = range.begin; f < range.end; ++f) sum = sum + check_face(faces, f);
   return sum;
 }
 
-FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length, int block_shift,
-                     RunBlocks* runs) noexcept {
+void add_blocks(const FaceColumns& faces, IndexRange range, int block_shift,
+                RunBlocks& run) noexcept {
+  Index last =
+      run.count > 0 && run.count <= RunBlocks::kCapacity ? run.block[run.count - 1] : kInvalidIndex;
+  for (Index h = faces.begin(range.begin); h < faces.begin(range.end); ++h) {
+    const Index block = faces.corners[h] >> block_shift;
+    if (block == last) continue;
+    last = block;
+    add_block(run, block);
+  }
+}
+
+FaceCheck check_runs_scalar(IndexRange range, const FaceColumns& faces, Index run_length,
+                            int block_shift, RunBlocks* runs) noexcept {
   FaceCheck sum;
   for (Index r = range.begin; r < range.end; ++r) {
-    RunBlocks& run = runs[r];
-    run.count = 0;
-    Index last = kInvalidIndex;
     const Index begin = r * run_length;
-    const Index end = std::min(faces.face_count, begin + run_length);
-    for (Index f = begin; f < end; ++f) sum = sum + check_face(faces, f);
-    for (Index h = faces.begin(begin); h < faces.begin(end); ++h) {
-      const Index block = faces.corners[h] >> block_shift;
-      if (block == last) continue;
-      last = block;
-      add_block(run, block);
-    }
+    const IndexRange run = {begin, std::min(faces.face_count, begin + run_length)};
+    runs[r].count = 0;
+    sum = sum + check_faces(run, faces);
+    add_blocks(faces, run, block_shift, runs[r]);
   }
   return sum;
+}
+
+FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length, int block_shift,
+                     RunBlocks* runs) noexcept {
+  FaceCheck check;
+  if (faces.is_triangles() &&
+      check_triangle_runs_sse(range, faces, run_length, block_shift, runs, check)) {
+    return check;
+  }
+  return check_runs_scalar(range, faces, run_length, block_shift, runs);
 }
 
 }  // namespace hedgerow::kernels

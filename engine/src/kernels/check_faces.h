@@ -31,4 +31,19 @@ struct RunBlocks {
 [[nodiscard]] FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length,
                                    int block_shift, RunBlocks* runs) noexcept;
 
+/// The plain form that the fast one is tested against.
+[[nodiscard]] FaceCheck check_runs_scalar(IndexRange range, const FaceColumns& faces,
+                                          Index run_length, int block_shift,
+                                          RunBlocks* runs) noexcept;
+
+/// The fast one: four 32-bit triangles at a time. False: not in this build, nothing was done.
+[[nodiscard]] bool check_triangle_runs_sse(IndexRange range, const FaceColumns& faces,
+                                           Index run_length, int block_shift, RunBlocks* runs,
+                                           FaceCheck& check) noexcept;
+
+// Shared by the two.
+[[nodiscard]] FaceCheck check_face(const FaceColumns& faces, Index f) noexcept;
+void add_blocks(const FaceColumns& faces, IndexRange range, int block_shift,
+                RunBlocks& run) noexcept;
+
 }  // namespace hedgerow::kernels

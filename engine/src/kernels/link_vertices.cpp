@@ -60,30 +60,43 @@ struct SseMatch {
 };
 #endif
 
-// One vertex. False: not one fan; nothing was written.
+// A closed fan: one rotation from the first corner meets all of them and comes back. Each step
+// writes the opposite of the half-edge it leaves, so a vertex where the rotation fails has been
+// scribbled on; it owns what was written and is linked again.
 template <class Match>
-bool link_vertex(const Corner* corners, Index k, Index* opposite, Index& outgoing,
-                 LinkStats& stats) noexcept {
-  const Match match(corners, k);
+bool link_closed(const Match& match, const Corner* corners, Index k, Index* opposite) noexcept {
+  Index i = 0;
+  for (Index step = 1; step <= k; ++step) {
+    const unsigned mask = match.followers(corners[i].target);
+    if (mask == 0 || (mask & (mask - 1)) != 0) return false;
+    const auto j = static_cast<Index>(std::countr_zero(mask));
+    opposite[corners[i].halfedge] = corners[j].incoming;
+    i = j;
+    if (i == 0) return step == k;
+  }
+  return false;
+}
+
+// An open fan: all targets but one are the source of exactly one corner, all sources but one are
+// met, and the chain from the corner that follows none meets all of them.
+template <class Match>
+bool link_open(const Match& match, const Corner* corners, Index k, Index* opposite,
+               Index& outgoing) noexcept {
   std::uint8_t follower[kSmallValence];
   unsigned followed = 0;
-  Index open_count = 0;
-  bool several = false;
+  Index end_count = 0;
   for (Index i = 0; i < k; ++i) {
     const unsigned mask = match.followers(corners[i].target);
-    several |= (mask & (mask - 1)) != 0;
-    open_count += mask == 0;
+    if ((mask & (mask - 1)) != 0) return false;
+    end_count += mask == 0;
     followed |= mask;
     follower[i] = static_cast<std::uint8_t>(std::countr_zero(mask | 1U << kSmallValence));
   }
-  if (several || open_count > 1 || std::popcount(followed) != k - open_count) return false;
-
-  // A closed fan of two corners is a face on both sides of another: left to the general path, which
-  // looks for duplicate faces.
-  if (open_count == 0 && k == 2) return false;
-  const Index start = open_count == 0 ? 0 : static_cast<Index>(std::countr_one(followed));
-  Index length = 1;
-  for (Index i = follower[start]; i != start && i != kSmallValence; i = follower[i]) ++length;
+  const unsigned starts = ((1U << k) - 1) & ~followed;
+  if (end_count != 1 || (starts & (starts - 1)) != 0) return false;
+  const auto start = static_cast<Index>(std::countr_zero(starts));
+  Index length = 0;
+  for (Index i = start; i != kSmallValence; i = follower[i]) ++length;
   if (length != k) return false;
 
   for (Index i = 0; i < k; ++i) {
@@ -91,8 +104,23 @@ bool link_vertex(const Corner* corners, Index k, Index* opposite, Index& outgoin
         follower[i] == kSmallValence ? kInvalidIndex : corners[follower[i]].incoming;
   }
   outgoing = corners[start].halfedge;
-  stats.paired_count += k - open_count;
-  stats.boundary_count += open_count;
+  return true;
+}
+
+// One vertex. False: not one fan; `outgoing` was not written. A closed fan of two corners is a face
+// on both sides of another: left to the general path, which looks for duplicate faces.
+template <class Match>
+bool link_vertex(const Corner* corners, Index k, Index* opposite, Index& outgoing,
+                 LinkStats& stats) noexcept {
+  const Match match(corners, k);
+  if (k > 2 && link_closed(match, corners, k, opposite)) {
+    outgoing = corners[0].halfedge;
+    stats.paired_count += k;
+    return true;
+  }
+  if (!link_open(match, corners, k, opposite, outgoing)) return false;
+  stats.paired_count += k - 1;
+  ++stats.boundary_count;
   return true;
 }
 
