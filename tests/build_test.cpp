@@ -363,7 +363,7 @@ double steps_per_triangle(Index triangles, Index hub, BuildStrategy strategy) {
       build(FaceList::triangles<Index>(corners, triangles + 2), options, Execution::serial());
   EXPECT_EQ(output->stats.boundary_edge_count, triangles + 2);
   EXPECT_EQ(output->stats.edge_count, 2 * triangles + 1);
-  return static_cast<double>(output->stats.step_count) / triangles;
+  return static_cast<double>(output->stats.step_count) / static_cast<double>(triangles);
 }
 
 TEST(Build, TakesLinearlyManyStepsOnAFanOfAMillionTriangles) {
