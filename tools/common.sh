@@ -1,4 +1,4 @@
-# shellcheck shell=sh disable=SC2154
+# shellcheck shell=sh disable=SC2034,SC2154,SC2164
 # Sourced by the scripts beside this file (POSIX sh). Wants `root`, the top of the source tree.
 
 say() { printf '%s\n' "$*" >&2; }
@@ -50,4 +50,17 @@ install_packages() {
   # shellcheck disable=SC2086
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends $missing
+}
+
+program=$root/build/release/tools/hedgerow
+
+# Builds the release program. Messages go to standard error: standard output is the program's.
+build_program() {
+  (
+    cd "$root"
+    # Where the tree was configured before, perhaps with more in it, that choice stays.
+    [ -f build/release/build.ninja ] ||
+      cmake --preset release -DHEDGEROW_BUILD_TESTS=OFF -DHEDGEROW_BUILD_BENCH=OFF
+    cmake --build --preset release --target hedgerow_program
+  ) >&2
 }
