@@ -48,7 +48,8 @@ struct BuildOutput {
   BuildStats stats;
   /// faces_new_to_old[f] is the input face that became f. Empty: no face was dropped.
   Buffer<Index> faces_new_to_old;
-  /// vertices_new_to_old[v] is the input vertex that v is or was split from. Empty: same numbers.
+  /// vertices_new_to_old[v] is the input vertex that v is or was split from. Empty: none was
+  /// added or dropped.
   Buffer<Index> vertices_new_to_old;
 };
 

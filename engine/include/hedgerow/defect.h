@@ -51,7 +51,10 @@ enum class Action : std::uint8_t {
 /// | nonmanifold_vertex |      |                   | the vertex   |              | groups       |
 /// | isolated_vertex    |      |                   | the vertex   |              |              |
 ///
-/// Faces are numbered as in the input; half-edges and vertices as before any `split`.
+/// A face is listed once under the first three kinds: for the first of them that applies to it.
+/// Faces are numbered as in the input. Edges and vertices are classified once the policies of the
+/// first four kinds have been applied, and before those of the other four: half-edges and vertices
+/// are numbered as they are then. What later rounds of `skip` or `split` meet is not listed.
 struct Defect {
   DefectKind kind{};
   FaceId face;
