@@ -134,10 +134,20 @@ bool drop_by_vertices(const kernels::FaceColumns& faces, const PairOutput& paire
   return found;
 }
 
+bool is_split(const Defect& defect, const Policies& policies) noexcept {
+  return policies[defect.kind] == Action::split && defect.kind >= DefectKind::nonmanifold_edge;
+}
+
+bool has_split_defect(const std::vector<Defect>& defects, const Policies& policies) noexcept {
+  return std::any_of(defects.begin(), defects.end(),
+                     [&](const Defect& d) { return is_split(d, policies); });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> faces_to_drop(const kernels::FaceColumns& faces, const PairOutput& paired,
                                         const Policies& policies) {
+  if (paired.defects.empty()) return {};
   std::vector<std::uint8_t> keep(at(faces.face_count), 1);
   if (drop_by_edges(faces, paired, policies, keep)) return keep;
   if (drop_by_vertices(faces, paired, policies, keep)) return keep;
@@ -145,10 +155,11 @@ std::vector<std::uint8_t> faces_to_drop(const kernels::FaceColumns& faces, const
 }
 
 bool split_fans(InputFaces& input, const PairOutput& paired, const Policies& policies) {
+  if (paired.fans.empty() || !has_split_defect(paired.defects, policies)) return false;
   const kernels::FaceColumns faces = input.columns();
   std::vector<std::uint8_t> splits(at(faces.vertex_count), 0);
   for (const Defect& d : paired.defects) {
-    if (policies[d.kind] != Action::split || d.kind < DefectKind::nonmanifold_edge) continue;
+    if (!is_split(d, policies)) continue;
     splits[at(d.vertex.value)] = 1;
     if (d.other.valid()) splits[at(d.other.value)] = 1;
   }
