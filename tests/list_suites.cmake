@@ -15,6 +15,7 @@ foreach(line IN LISTS lines)
     "add_test(\"${suite}\" \"${PROGRAM}\" \"--gtest_filter=${suite}.*\")\n"
     "set_tests_properties(\"${suite}\" PROPERTIES\n"
     "  SKIP_REGULAR_EXPRESSION \"${all_skipped}\"\n"
+    "  LABELS \"${LABELS}\"\n"
     "  TIMEOUT 300)\n")
 endforeach()
 file(WRITE "${LIST}" "${content}")
