@@ -1,0 +1,40 @@
+#pragma once
+
+#include "support/reference_mesh.h"
+
+/// Meshes small enough to draw by hand.
+namespace hedgerow::test {
+
+/// Six triangles round the inner vertex 3, with seven vertices and a boundary of six edges: the
+/// worked table of a DCEL, whose half-edges e0 .. e17 are 0 .. 17 here and whose v1 is vertex 0.
+inline PlainFaces hexagon_of_triangles() {
+  return {{{0, 2, 3}, {0, 3, 1}, {1, 3, 4}, {2, 5, 3}, {3, 5, 6}, {3, 6, 4}}, 7};
+}
+
+inline PlainFaces tetrahedron() { return {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}, 4}; }
+
+/// Two triangles that share vertex 2 and no edge.
+inline PlainFaces bowtie() { return {{{0, 1, 2}, {2, 3, 4}}, 5}; }
+
+/// Three triangles on the edge (0, 1).
+inline PlainFaces three_on_an_edge() { return {{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5}; }
+
+/// A pentagon, a quad and a triangle in a row, and an isolated vertex 8.
+inline PlainFaces mixed_row() { return {{{0, 1, 2, 3, 4}, {1, 5, 6, 2}, {5, 7, 6}}, 9}; }
+
+/// A tetrahedron (closed at vertex 0) and a triangle that touches it at vertex 0 only.
+inline PlainFaces closed_and_open_fan() {
+  PlainFaces list = tetrahedron();
+  list.faces.push_back({0, 4, 5});
+  list.vertex_count = 6;
+  return list;
+}
+
+/// The oracle's mesh of faces that are all good.
+inline ReferenceMesh reference_of(const PlainFaces& list) {
+  std::vector<std::vector<Index>> faces;
+  for (const auto& face : list.faces) faces.emplace_back(face.begin(), face.end());
+  return reference_mesh(faces, static_cast<Index>(list.vertex_count));
+}
+
+}  // namespace hedgerow::test
