@@ -1,0 +1,141 @@
+#include "dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "baselines/struct_mesh.h"
+#include "hedgerow/build.h"
+#include "mesh_source.h"
+
+namespace hedgerow::bench {
+
+namespace {
+
+constexpr std::uint64_t kShuffleSeed = 20250101;
+
+/// A random permutation; std::shuffle may differ from one standard library to the next.
+std::vector<Index> permutation(Index count, std::mt19937_64& random) {
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), Index{0});
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
+/// The same triangles with vertices and faces renumbered at random.
+Soup shuffled(const Soup& soup) {
+  std::mt19937_64 random(kShuffleSeed);
+  const std::vector<Index> vertex_old_to_new = permutation(soup.vertex_count(), random);
+  const std::vector<Index> face_new_to_old = permutation(soup.face_count(), random);
+  Soup out;
+  out.xyz = Buffer<float>(soup.xyz.size());
+  out.corners = Buffer<Index>(soup.corners.size());
+  for (std::size_t v = 0; v < vertex_old_to_new.size(); ++v) {
+    std::copy_n(&soup.xyz[3 * v], 3, &out.xyz[3 * static_cast<std::size_t>(vertex_old_to_new[v])]);
+  }
+  for (std::size_t f = 0; f < face_new_to_old.size(); ++f) {
+    const std::size_t old = 3 * static_cast<std::size_t>(face_new_to_old[f]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(soup.corners[old + k]);
+      out.corners[3 * f + k] = vertex_old_to_new[v];
+    }
+  }
+  return out;
+}
+
+Soup make_soup(const DatasetKey& key) {
+  if (!key.path.empty()) return read_soup(key.path);
+  if (key.shape == "shuffled") return shuffled(generate_soup("grid", key.triangle_count));
+  return generate_soup(key.shape, key.triangle_count);
+}
+
+/// Builds, and leaves in the soup only the faces that the engine keeps.
+Connectivity build_kept(Soup& soup) {
+  BuildOptions options;
+  options.borrow_corners = true;
+  Result<BuildOutput> built = build(soup.face_list(), options, Execution::serial());
+  if (!built) throw std::runtime_error(std::string("not buildable: ") + name(built.error().code));
+  if (built->faces_new_to_old.empty()) return std::move(built->mesh);
+  const Connectivity& kept = built->mesh;
+  Buffer<Index> offsets;
+  if (!kept.is_triangle_mesh()) {
+    const auto& first = kept.polygons().first_of;
+    offsets = Buffer<Index>::copy_of({first.data(), static_cast<std::size_t>(first.size())});
+  }
+  soup.corners = Buffer<Index>::copy_of(built->mesh.origin());
+  soup.offsets = std::move(offsets);
+  return build_kept(soup);
+}
+
+Reference make_reference(const Dataset& data) {
+  baselines::StructHalfedgeMesh mesh(data.faces(), data.positions());
+  Reference reference;
+  reference.opposite = mesh.opposite();
+  mesh.compute_face_normals();
+  reference.face_normals = mesh.face_normals();
+  mesh.compute_vertex_normals(NormalWeight::area);
+  reference.area_normals = mesh.vertex_normals();
+  mesh.compute_vertex_normals(NormalWeight::uniform);
+  reference.uniform_normals = mesh.vertex_normals();
+  reference.one_ring_sums.resize(static_cast<std::size_t>(data.mesh.vertex_count()));
+  mesh.fill_one_ring_sums(reference.one_ring_sums);
+  return reference;
+}
+
+}  // namespace
+
+std::string DatasetKey::size() const {
+  const auto rounded = [](std::int64_t count, std::int64_t unit) {
+    return std::to_string((count + unit / 2) / unit);
+  };
+  const std::int64_t count = triangle_count;
+  if (count >= 1'000'000) return rounded(count, 1'000'000) + "M";
+  if (count >= 1'000) return rounded(count, 1'000) + "k";
+  return std::to_string(count);
+}
+
+Counts counts_of(const Dataset& data) noexcept {
+  return {static_cast<double>(data.mesh.halfedge_count()),
+          static_cast<double>(data.mesh.vertex_count()),
+          static_cast<double>(data.mesh.face_count())};
+}
+
+const Dataset& dataset(const DatasetKey& key) {
+  static std::vector<std::unique_ptr<Dataset>> made;
+  for (const auto& data : made) {
+    if (data->key == key) return *data;
+  }
+  auto data = std::make_unique<Dataset>();
+  data->key = key;
+  data->soup = make_soup(key);
+  data->mesh = build_kept(data->soup);
+  data->reference = make_reference(*data);
+  made.push_back(std::move(data));
+  return *made.back();
+}
+
+std::string compare_normals(std::span<const float> normals, std::span<const float> expected,
+                            float tolerance, std::span<const Index> skipped) {
+  if (normals.size() != expected.size()) return "another number of normals; not measured";
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    // Written so that a difference that is not a number counts as different.
+    const bool is_equal = std::abs(normals[i] - expected[i]) <= tolerance;
+    if (is_equal || std::ranges::binary_search(skipped, static_cast<Index>(i / 3))) continue;
+    return "normal " + std::to_string(i / 3) + " is " + std::to_string(normals[i]) + " in axis " +
+           std::to_string(i % 3) + ", not " + std::to_string(expected[i]) + "; not measured";
+  }
+  return "";
+}
+
+std::vector<Index> vertices_with_several_fans(const Connectivity& mesh) {
+  std::vector<Index> vertices;
+  for (const FanStart fan : mesh.fans()) vertices.push_back(fan.vertex.value);
+  return vertices;
+}
+
+}  // namespace hedgerow::bench
