@@ -58,11 +58,13 @@ FaceCheck check_faces(IndexRange range, const FaceColumns& faces) noexcept {
 
 void add_blocks(const FaceColumns& faces, IndexRange range, int block_shift,
                 RunBlocks& run) noexcept {
-  Index last =
-      run.count > 0 && run.count <= RunBlocks::kCapacity ? run.block[run.count - 1] : kInvalidIndex;
+  // A strip of triangles along the seam of two blocks goes to and fro between them.
+  Index last = kInvalidIndex;
+  Index before = kInvalidIndex;
   for (Index h = faces.begin(range.begin); h < faces.begin(range.end); ++h) {
     const Index block = faces.corners[h] >> block_shift;
-    if (block == last) continue;
+    if (block == last || block == before) continue;
+    before = last;
     last = block;
     add_block(run, block);
   }
