@@ -15,16 +15,19 @@ namespace hedgerow {
 /// Fans       At a vertex with several open fans, `next` leads from each fan to itself: the
 /// boundary
 ///            half-edge that enters fan i is followed by the one that leaves fan i. So each fan
-///            stays one rotation, and the `fans` table still lists the others.
+///            stays one rotation, and the `fans` table still lists the others. `outgoing` and each
+///            entry of `fans` name the boundary half-edge of their own fan, if it is open.
 /// Complexity O(H); allocates every column anew. The mesh passed in is not changed.
 /// Errors     already_closed, too_many_elements.
 [[nodiscard]] Result<Connectivity> close_boundary(const Connectivity& mesh,
                                                   const Execution& execution);
 
 /// The default form again: drops the half-edges with face -1. Inverse of `close_boundary`, to the
-/// last byte. Dangling edges have no place in the default form and are refused.
+/// last byte (a triangle mesh comes back implicit). A rotation with several boundary half-edges is
+/// cut into as many fans.
 ///
-/// Complexity O(H). Errors already_open, not_canonical.
+/// Complexity O(H). Errors already_open; not_canonical, for dangling edges too, which have no place
+/// in the default form: element = the smallest half-edge that cannot stay or go.
 [[nodiscard]] Result<Connectivity> open_boundary(const Connectivity& mesh,
                                                  const Execution& execution);
 
