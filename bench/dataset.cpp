@@ -84,6 +84,8 @@ Reference make_reference(const Dataset& data) {
   reference.uniform_normals = mesh.vertex_normals();
   reference.one_ring_sums.resize(static_cast<std::size_t>(data.mesh.vertex_count()));
   mesh.fill_one_ring_sums(reference.one_ring_sums);
+  reference.boundary_loops = mesh.boundary_loop_count();
+  reference.components = mesh.component_count();
   return reference;
 }
 

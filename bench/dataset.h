@@ -29,6 +29,8 @@ struct Reference {
   std::vector<float> area_normals;     ///< of the vertices, weighted by area
   std::vector<float> uniform_normals;  ///< of the vertices, all faces counting the same
   std::vector<std::uint32_t> one_ring_sums;
+  Index boundary_loops = 0;
+  Index components = 0;
 };
 
 /// A mesh to measure on, with what is needed to check the answers.

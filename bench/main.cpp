@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
   const Plan plan = make_plan(is_smoke, mesh);
   hedgerow::bench::add_bandwidth(plan);
   hedgerow::bench::add_build(plan);
+  hedgerow::bench::add_circulate(plan);
   hedgerow::bench::add_query(plan);
   const int error_count = hedgerow::bench::run_all(has_output_file);
   benchmark::Shutdown();

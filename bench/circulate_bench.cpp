@@ -1,0 +1,164 @@
+// hedgerow/circulate.h: the sum of the neighbours' ids for every vertex, by the range that a caller
+// would use, over computed and over stored `next` and `face`, and written out by hand.
+#include <memory>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "hedgerow/circulate.h"
+#include "peers/measured_mesh.h"
+#include "runner.h"
+
+namespace hedgerow::bench {
+
+namespace {
+
+/// Sums the ids of v's neighbours, modulo 2^32.
+struct ByRange {
+  template <Topology Mesh>
+  std::uint32_t operator()(const Mesh& mesh, VertexId v) const noexcept {
+    std::uint32_t sum = 0;
+    for (const VertexId u : neighbours(mesh, v)) sum += static_cast<std::uint32_t>(u.value);
+    return sum;
+  }
+};
+
+struct ByHand {
+  template <Topology Mesh>
+  std::uint32_t operator()(const Mesh& mesh, VertexId v) const noexcept {
+    const HalfedgeId start = mesh.outgoing[v];
+    std::uint32_t sum = start.valid() ? fan_sum(mesh, start) : 0;
+    for (const FanStart fan : extra_fans(mesh.fans, v)) sum += fan_sum(mesh, fan.start);
+    return sum;
+  }
+
+ private:
+  template <Topology Mesh>
+  static std::uint32_t fan_sum(const Mesh& mesh, HalfedgeId start) noexcept {
+    std::uint32_t sum = 0;
+    HalfedgeId h = start;
+    do {
+      sum += static_cast<std::uint32_t>(mesh.target(h).value);
+      const HalfedgeId h_opposite = mesh.opposite[h];
+      if (!h_opposite.valid()) {
+        return sum + static_cast<std::uint32_t>(mesh.origin[mesh.prev(start)].value);
+      }
+      h = mesh.next(h_opposite);
+    } while (h != start);
+    return sum;
+  }
+};
+
+/// Each vertex reads its neighbours and writes its own sum, so any partition is free of races.
+template <Topology Mesh, class Sum>
+void gather_sums(const Mesh& mesh, const Execution& execution, const Sum& sum_of,
+                 std::vector<std::uint32_t>& sums) {
+  const auto run = [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      sums[static_cast<std::size_t>(v)] = sum_of(mesh, VertexId(v));
+    }
+  };
+  if (execution.threads() == 1) {
+    run(0, mesh.vertex_count());
+    return;
+  }
+  auto body = [&] {
+    tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.vertex_count(), 4096),
+                      [&](const auto& range) { run(range.begin(), range.end()); });
+  };
+  execution.enter()(
+      execution.context(), [](void* user) { (*static_cast<decltype(body)*>(user))(); }, &body);
+}
+
+std::string compare(const std::vector<std::uint32_t>& sums, const Dataset& data) {
+  std::vector<std::uint32_t> expected = data.reference.one_ring_sums;
+  for (const Index v : vertices_with_several_fans(data.mesh)) {
+    expected[static_cast<std::size_t>(v)] = sums[static_cast<std::size_t>(v)];
+  }
+  return sums == expected ? "" : "other one-ring sums than the reference; not measured";
+}
+
+/// A mesh of its own with `next` and `face` stored; the dataset's stays as it is.
+std::shared_ptr<Connectivity> with_stored_columns(const Dataset& data) {
+  ConnectivityColumns columns;
+  columns.origin = ColumnStorage::borrow(data.mesh.origin());
+  columns.opposite = ColumnStorage::borrow(data.mesh.opposite());
+  columns.outgoing = ColumnStorage::borrow(data.mesh.outgoing());
+  columns.fans = Buffer<FanStart>::copy_of(data.mesh.fans());
+  columns.all_triangles = true;
+  auto mesh = std::make_shared<Connectivity>(std::move(columns));
+  mesh->materialise(Execution::serial());
+  return mesh;
+}
+
+template <class Sum>
+Work prepare_engine(const Dataset& data, const Execution& execution, const Sum& sum_of,
+                    bool is_stored) {
+  auto sums = std::make_shared<std::vector<std::uint32_t>>(
+      static_cast<std::size_t>(data.mesh.vertex_count()));
+  Work work;
+  if (is_stored && data.mesh.is_implicit()) {
+    work.run = [mesh = with_stored_columns(data), execution, sum_of, sums] {
+      gather_sums(mesh->polygons(), execution, sum_of, *sums);
+    };
+  } else {
+    work.run = [&data, execution, sum_of, sums] {
+      data.mesh.visit([&](const auto& view) { gather_sums(view, execution, sum_of, *sums); });
+    };
+  }
+  work.run();
+  work.error = compare(*sums, data);
+  return work;
+}
+
+Work prepare_peer(const Dataset& data, const Peer& peer) {
+  const auto mesh = built_mesh(peer, data.faces(), data.positions());
+  Work work;
+  if (!mesh) {
+    work.error = "refuses a face of this mesh; not measured";
+    return work;
+  }
+  auto sums = std::make_shared<std::vector<std::uint32_t>>(
+      static_cast<std::size_t>(data.mesh.vertex_count()));
+  work.run = [mesh, sums] { mesh->fill_one_ring_sums(*sums); };
+  work.run();
+  work.error = compare(*sums, data);
+  return work;
+}
+
+/// Reads origin, opposite and outgoing; writes one sum a vertex.
+double compulsory_bytes(const Dataset& data) {
+  const Counts counts = counts_of(data);
+  return kIndexBytes * (2 * counts.halfedges + counts.vertices) +
+         sizeof(std::uint32_t) * counts.vertices;
+}
+
+template <class Sum>
+void add_engine(const Plan& plan, const DatasetKey& key, const Sum& sum_of, bool is_stored,
+                const std::string& variant) {
+  for (const int threads : plan.threads) {
+    add(plan, {"one_ring", key, threads, variant,
+               [=](const Dataset& data, const Execution& execution) {
+                 return prepare_engine(data, execution, sum_of, is_stored);
+               },
+               compulsory_bytes});
+  }
+}
+
+}  // namespace
+
+void add_circulate(const Plan& plan) {
+  for (const DatasetKey& key : plan.all) add_engine(plan, key, ByRange{}, false, "");
+  for (const DatasetKey& key : plan.large) {
+    add_engine(plan, key, ByHand{}, false, "by-hand");
+    add_engine(plan, key, ByRange{}, true, "explicit");
+    for (const Peer& peer : peers()) {
+      add(plan,
+          {"one_ring", key, 1, peer.name,
+           [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
+           compulsory_bytes});
+    }
+  }
+}
+
+}  // namespace hedgerow::bench
