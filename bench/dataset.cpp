@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <numeric>
-#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -17,40 +15,8 @@ namespace hedgerow::bench {
 
 namespace {
 
-constexpr std::uint64_t kShuffleSeed = 20250101;
-
-/// A random permutation; std::shuffle may differ from one standard library to the next.
-std::vector<Index> permutation(Index count, std::mt19937_64& random) {
-  std::vector<Index> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), Index{0});
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-  return order;
-}
-
-/// The same triangles with vertices and faces renumbered at random.
-Soup shuffled(const Soup& soup) {
-  std::mt19937_64 random(kShuffleSeed);
-  const std::vector<Index> vertex_old_to_new = permutation(soup.vertex_count(), random);
-  const std::vector<Index> face_new_to_old = permutation(soup.face_count(), random);
-  Soup out;
-  out.xyz = Buffer<float>(soup.xyz.size());
-  out.corners = Buffer<Index>(soup.corners.size());
-  for (std::size_t v = 0; v < vertex_old_to_new.size(); ++v) {
-    std::copy_n(&soup.xyz[3 * v], 3, &out.xyz[3 * static_cast<std::size_t>(vertex_old_to_new[v])]);
-  }
-  for (std::size_t f = 0; f < face_new_to_old.size(); ++f) {
-    const std::size_t old = 3 * static_cast<std::size_t>(face_new_to_old[f]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(soup.corners[old + k]);
-      out.corners[3 * f + k] = vertex_old_to_new[v];
-    }
-  }
-  return out;
-}
-
 Soup make_soup(const DatasetKey& key) {
   if (!key.path.empty()) return read_soup(key.path);
-  if (key.shape == "shuffled") return shuffled(generate_soup("grid", key.triangle_count));
   return generate_soup(key.shape, key.triangle_count);
 }
 

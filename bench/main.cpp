@@ -68,15 +68,12 @@ Plan make_plan(bool is_smoke, const std::string& mesh) {
   plan.threads.push_back(processors);
   if (is_smoke) {
     plan.large = {{"grid", 200, ""}, {"shuffled", 200, ""}};
-    plan.all = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"fan", 300, ""}};
+    plan.all = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"icosphere", 320, ""}, {"fan", 300, ""}};
   } else {
     // One size for each of: second-level cache, last-level cache, memory.
     plan.large = {{"grid", 4'000'000, ""}, {"shuffled", 4'000'000, ""}};
-    plan.all = {{"grid", 10'000, ""},
-                {"grid", 1'000'000, ""},
-                {"grid", 4'000'000, ""},
-                {"shuffled", 4'000'000, ""},
-                {"fan", 1'000'000, ""}};
+    plan.all = {{"grid", 10'000, ""},        {"grid", 1'000'000, ""},      {"grid", 4'000'000, ""},
+                {"shuffled", 4'000'000, ""}, {"icosphere", 1'310'720, ""}, {"fan", 1'000'000, ""}};
   }
   if (!mesh.empty()) {
     const DatasetKey key{std::filesystem::path(mesh).stem().string(), 0, mesh};
@@ -108,6 +105,7 @@ int main(int argc, char** argv) {
   const Plan plan = make_plan(is_smoke, mesh);
   hedgerow::bench::add_bandwidth(plan);
   hedgerow::bench::add_build(plan);
+  hedgerow::bench::add_boundary(plan);
   hedgerow::bench::add_circulate(plan);
   hedgerow::bench::add_query(plan);
   const int error_count = hedgerow::bench::run_all(has_output_file);

@@ -7,7 +7,9 @@
 
 namespace hedgerow::bench {
 
-/// A mesh of about `triangle_count` triangles: "grid", "icosphere" or "fan".
+/// A mesh of about `triangle_count` triangles: "shuffled" (the grid renumbered at random), "fan" (a
+/// closed one), or any other name of hedgerow/shapes.h. Seeds are fixed.
+/// Throws std::runtime_error with the reason.
 [[nodiscard]] Soup generate_soup(const std::string& shape, std::int64_t triangle_count);
 
 /// Reads a mesh file of any format that the project reads.
