@@ -1,0 +1,96 @@
+#include "hedgerow/io/write.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "output.h"
+
+namespace hedgerow::io {
+
+namespace {
+
+tl::unexpected<IoError> refuse(const std::filesystem::path& path, IoErrorCode code,
+                               std::string message) {
+  IoError error;
+  error.code = code;
+  error.path = path.string();
+  error.message = std::move(message);
+  return tl::unexpected<IoError>(std::move(error));
+}
+
+std::optional<std::string> defect_of(const Positions& points, const char* what) {
+  if (points.count < 0) return fmt::format("a negative number of {}", what);
+  if (points.count > 0 && points.data == nullptr) return fmt::format("no address of the {}", what);
+  if (points.count > 0 && points.stride_bytes < 3 * sizeof(float)) {
+    return fmt::format("the {} are {} bytes apart, each has 12", what, points.stride_bytes);
+  }
+  return std::nullopt;
+}
+
+// A file must not refer to vertices that it does not have, so all indices are looked at before the
+// first byte is written.
+std::optional<std::string> defect_of(const WriteInput& input) {
+  if (auto defect = defect_of(input.positions, "positions")) return defect;
+  if (auto defect = defect_of(input.normals, "normals")) return defect;
+  if (input.normals.count != 0 && input.normals.count != input.positions.count) {
+    return fmt::format("{} normals for {} vertices", input.normals.count, input.positions.count);
+  }
+  if (const Result<void> checked = check(input.faces); !checked) {
+    const Error& error = checked.error();
+    return fmt::format("the face list is not sound: {} (element {}, value {}, limit {})",
+                       name(error.code), error.element, error.value, error.limit);
+  }
+  for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
+    const std::int64_t degree = corners_of(input.faces, f).count;
+    for (std::int64_t k = 0; k < degree; ++k) {
+      const std::int64_t vertex = vertex_at(input.faces, f, k);
+      if (vertex < 0 || vertex >= input.positions.count) {
+        return fmt::format("face {} refers to vertex {}, there are {}", f, vertex,
+                           input.positions.count);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+IoResult<WriteOutput> write(const std::filesystem::path& path, const WriteInput& input,
+                            const WriteOptions& options) {
+  const std::optional<Format> format = format_of(path);
+  if (!format || !can_write(*format)) {
+    return refuse(path, IoErrorCode::unknown_extension,
+                  "the extension is none of .obj .ply .off .stl");
+  }
+  if (std::optional<std::string> defect = defect_of(input)) {
+    return refuse(path, IoErrorCode::bad_mesh, std::move(*defect));
+  }
+  IoResult<AtomicFile> file = AtomicFile::create(path, {options.durable});
+  if (!file) return tl::unexpected<IoError>(std::move(file.error()));
+  Output out(*file);
+  WriteContext context{input, options, out, {}};
+  switch (*format) {
+    case Format::obj:
+      write_obj(context);
+      break;
+    case Format::off:
+      write_off(context);
+      break;
+    case Format::stl:
+      write_stl(context);
+      break;
+    default:
+      write_ply(context);
+      break;
+  }
+  if (IoResult<void> finished = out.finish(); !finished) {
+    return tl::unexpected<IoError>(std::move(finished.error()));
+  }
+  context.report.byte_count = file->bytes_written();
+  return context.report;
+}
+
+}  // namespace hedgerow::io
