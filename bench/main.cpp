@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -11,6 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "machine.h"
+#include "mesh_source.h"
 #include "runner.h"
 
 namespace {
@@ -76,7 +78,8 @@ Plan make_plan(bool is_smoke, const std::string& mesh) {
                 {"shuffled", 4'000'000, ""}, {"icosphere", 1'310'720, ""}, {"fan", 1'000'000, ""}};
   }
   if (!mesh.empty()) {
-    const DatasetKey key{std::filesystem::path(mesh).stem().string(), 0, mesh};
+    const std::int64_t face_count = hedgerow::bench::read_soup(mesh).face_count();
+    const DatasetKey key{std::filesystem::path(mesh).stem().string(), face_count, mesh};
     plan.large.push_back(key);
     plan.all.push_back(key);
   }
@@ -102,8 +105,15 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   hedgerow::bench::add_machine_context();
 
-  const Plan plan = make_plan(is_smoke, mesh);
+  Plan plan;
+  try {
+    plan = make_plan(is_smoke, mesh);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "hedgerow_bench: " << error.what() << "\n";
+    return 3;
+  }
   hedgerow::bench::add_bandwidth(plan);
+  hedgerow::bench::add_buffer(plan);
   hedgerow::bench::add_build(plan);
   hedgerow::bench::add_boundary(plan);
   hedgerow::bench::add_circulate(plan);

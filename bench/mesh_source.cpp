@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "hedgerow/shapes.h"
+#if defined(HEDGEROW_BENCH_IO)
+#include "hedgerow/io/read.h"
+#endif
 
 namespace hedgerow::bench {
 
@@ -31,7 +34,13 @@ Soup generate_soup(const std::string& shape, std::int64_t triangle_count) {
 }
 
 Soup read_soup(const std::string& path) {
-  throw std::runtime_error(path + ": file formats are not part of this build");
+#if defined(HEDGEROW_BENCH_IO)
+  io::IoResult<io::ReadOutput> read = io::read(path);
+  if (!read) throw std::runtime_error(path + ": " + read.error().message);
+  return std::move(read->soup);
+#else
+  throw std::runtime_error(path + ": this build reads no files");
+#endif
 }
 
 }  // namespace hedgerow::bench

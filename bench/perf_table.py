@@ -31,7 +31,7 @@ PEERS = ("openmesh", "cgal", "meshoptimizer")
 # The bandwidth kernel that mixes reads and writes as the operation does.
 BANDWIDTH_KERNEL = {
     "boundary_loops": "read", "components": "read", "one_ring": "read", "validate": "read",
-    "build": "copy", "close_boundary": "copy", "open_boundary": "copy",
+    "build": "copy", "fill_column": "copy", "close_boundary": "copy", "open_boundary": "copy",
     "reorder_hilbert": "copy", "reorder_morton": "copy", "reorder_breadth_first": "copy",
     "face_normals": "triad", "vertex_normals_facelist": "triad",
     "vertex_normals_halfedge": "triad",
@@ -41,6 +41,7 @@ COMPETES_WITH = {"vertex_normals_facelist": "vertex_normals_halfedge"}
 TABLES = {
     "build": ("build",),
     "normals": ("face_normals", "vertex_normals_facelist", "vertex_normals_halfedge"),
+    "memory": ("fill_column",),
     "queries": ("one_ring", "boundary_loops", "components"),
     "whole-mesh": ("close_boundary", "open_boundary", "validate", "reorder_hilbert",
                    "reorder_morton", "reorder_breadth_first"),

@@ -46,6 +46,7 @@ void add(const Plan& plan, Case benchmark);
 // One for each source file of benchmarks.
 void add_bandwidth(const Plan& plan);
 void add_boundary(const Plan& plan);
+void add_buffer(const Plan& plan);
 void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
 void add_query(const Plan& plan);

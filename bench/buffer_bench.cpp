@@ -1,0 +1,48 @@
+// hedgerow/buffer.h: a fresh column, allocated and written once; what a build pays before it
+// starts.
+#include <memory>
+#include <vector>
+
+#include "hedgerow/buffer.h"
+#include "runner.h"
+
+namespace hedgerow::bench {
+
+namespace {
+
+constexpr Index kStep = 3;
+
+template <class Column>
+void fill(Column& column) noexcept {
+  const auto count = static_cast<Index>(column.size());
+  for (Index i = 0; i < count; ++i) column[static_cast<std::size_t>(i)] = i * kStep;
+}
+
+template <class Column>
+Work prepare(const Dataset& data, const Execution&) {
+  const auto count = static_cast<std::size_t>(data.mesh.halfedge_count());
+  auto column = std::make_shared<std::unique_ptr<Column>>();
+  Work work;
+  work.run = [count, column] {
+    *column = std::make_unique<Column>(count);
+    fill(**column);
+  };
+  work.cleanup = [column] { column->reset(); };
+  work.run();
+  const Index last = (**column)[count - 1];
+  if (last != static_cast<Index>(count - 1) * kStep) work.error = "wrong values; not measured";
+  work.cleanup();
+  return work;
+}
+
+double compulsory_bytes(const Dataset& data) { return kIndexBytes * counts_of(data).halfedges; }
+
+}  // namespace
+
+void add_buffer(const Plan& plan) {
+  const DatasetKey& key = plan.large.front();
+  add(plan, {"fill_column", key, 1, "", prepare<Buffer<Index>>, compulsory_bytes});
+  add(plan, {"fill_column", key, 1, "vector", prepare<std::vector<Index>>, compulsory_bytes});
+}
+
+}  // namespace hedgerow::bench
