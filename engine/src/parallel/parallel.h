@@ -78,4 +78,21 @@ template <class T, class Kernel, class Join>
   return total;
 }
 
+/// Folds `function(task, slot) -> T` over the tasks [0, count) with `join`, as `for_each_task` and
+/// `reduce` do.
+template <class T, class Function, class Join>
+[[nodiscard]] T reduce_tasks(const Execution& execution, Index count, const Function& function,
+                             const Join& join) {
+  std::atomic_flag lock = ATOMIC_FLAG_INIT;
+  T total{};
+  for_each_task(execution, count, [&](Index task, Index slot) {
+    const T part = function(task, slot);
+    while (lock.test_and_set(std::memory_order_acquire)) {
+    }
+    total = join(total, part);
+    lock.clear(std::memory_order_release);
+  });
+  return total;
+}
+
 }  // namespace hedgerow::par

@@ -1,0 +1,133 @@
+#include "kernels/gather_normals.h"
+
+#include <algorithm>
+
+#include "kernels/normals_weight.h"
+
+namespace hedgerow::kernels {
+
+namespace {
+
+template <NormalWeight W>
+Wide triangle_corner(Index h, const GatherInput& input) noexcept {
+  const Index k = h % 3;
+  const Index* corners = input.origin + (h - k);
+  return wide_corner<W>(input.points[corners[0]], input.points[corners[1]],
+                        input.points[corners[2]], static_cast<int>(k));
+}
+
+template <NormalWeight W>
+Wide polygon_corner(Index h, const PolygonView& mesh, const GatherInput& input) noexcept {
+  const FaceId f = mesh.face(HalfedgeId(h));
+  if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) {
+    return input.faces[f.value];
+  }
+  const Index first = mesh.first(f).value;
+  const auto point = [&](Index k) { return input.points[input.origin[first + k]]; };
+  Wide face;
+  if constexpr (W == NormalWeight::angle) face = input.faces[f.value];
+  return face_corner<W>(face, mesh.degree(f), h - first, point);
+}
+
+template <NormalWeight W, class View>
+Wide any_corner(Index h, const View& mesh, const GatherInput& input) noexcept {
+  if constexpr (std::is_same_v<View, PolygonView>) {
+    if (!input.is_triangles) return polygon_corner<W>(h, mesh, input);
+  }
+  return triangle_corner<W>(h, input);
+}
+
+template <NormalWeight W, class View>
+Float3 add_corners(Float3 sum, Index* ids, Index count, const View& mesh,
+                   const GatherInput& input) noexcept {
+  if constexpr (std::is_same_v<View, PolygonView>) {
+    if (!input.is_triangles) {
+      for (Index i = 0; i < count; ++i) {
+        sum = sum + narrow(polygon_corner<W>(ids[i], mesh, input));
+      }
+      return sum;
+    }
+  }
+  return add_triangle_corners_sse<W>(sum, ids, count, input);
+}
+
+// The sum again, each term divided by a power of two near the largest.
+template <NormalWeight W, class View>
+bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+                       Float3& unit) noexcept {
+  int exponent = kNoExponent;
+  for_each_corner(mesh, v, [&](Index h) {
+    exponent = std::max(exponent, exponent_of(any_corner<W>(h, mesh, input)));
+  });
+  if (exponent == kNoExponent) return false;
+  Float3 sum{0, 0, 0};
+  for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
+    for (Index i = 0; i < count; ++i) {
+      sum = sum + scaled(any_corner<W>(ids[i], mesh, input), exponent);
+    }
+  });
+  return normalise_wide(sum, unit);
+}
+
+template <NormalWeight W, class View>
+NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+                   const NormalWriter& writer) noexcept {
+  NormalStats stats;
+  for (Index i = range.begin; i < range.end; ++i) {
+    const VertexId v(i);
+    Float3 sum{0, 0, 0};
+    for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
+      sum = add_corners<W>(sum, ids, count, mesh, input);
+    });
+    Float3 unit;
+    if (normalise(sum, unit)) [[likely]] {
+      writer.write(i, unit);
+    } else if (sum_in_full_range<W>(v, mesh, input, spill, unit)) {
+      writer.write(i, unit);
+    } else {
+      writer.write_degenerate(i, stats);
+    }
+  }
+  return stats;
+}
+
+}  // namespace
+
+template <NormalWeight W>
+Float3 add_triangle_corners_scalar(Float3 sum, const Index* ids, Index count,
+                                   const GatherInput& input) noexcept {
+  for (Index i = 0; i < count; ++i) sum = sum + narrow(triangle_corner<W>(ids[i], input));
+  return sum;
+}
+
+template Float3 add_triangle_corners_scalar<NormalWeight::uniform>(Float3, const Index*, Index,
+                                                                   const GatherInput&) noexcept;
+template Float3 add_triangle_corners_scalar<NormalWeight::area>(Float3, const Index*, Index,
+                                                                const GatherInput&) noexcept;
+template Float3 add_triangle_corners_scalar<NormalWeight::angle>(Float3, const Index*, Index,
+                                                                 const GatherInput&) noexcept;
+template Float3 add_triangle_corners_scalar<NormalWeight::max>(Float3, const Index*, Index,
+                                                               const GatherInput&) noexcept;
+
+void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& points,
+                       NormalWeight weight, PolygonMethod method, Wide* out) noexcept {
+  with_weight(weight, [&](auto w) {
+    for (Index f = range.begin; f < range.end; ++f) {
+      out[f] = face_vector<w()>(faces, f, points, method);
+    }
+  });
+}
+
+NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
+                           HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+  return with_weight(input.weight,
+                     [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
+}
+
+NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const GatherInput& input,
+                           HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+  return with_weight(input.weight,
+                     [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
+}
+
+}  // namespace hedgerow::kernels

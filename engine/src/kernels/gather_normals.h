@@ -1,0 +1,43 @@
+#pragma once
+
+#include "hedgerow/topology.h"
+#include "kernels/normals_source.h"
+#include "kernels/one_ring.h"
+
+/// Vertex normals by walking round each vertex.
+namespace hedgerow::kernels {
+
+struct GatherInput {
+  Points points;
+  NormalWeight weight{};
+  const Index* origin = nullptr;
+  /// Half-edge 3f + k leaves corner k of face f: faces are arithmetic.
+  bool is_triangles = false;
+  /// One `face_vector` per face where the faces are not all triangles and the weight is not `max`.
+  const Wide* faces = nullptr;
+};
+
+/// Fills the face vectors of `range`; each face writes its own element.
+void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& points,
+                       NormalWeight weight, PolygonMethod method, Wide* out) noexcept;
+
+/// Writes the normals of the vertices in `range`; each vertex writes its own element. `spill` is
+/// empty, holds all half-edges, and is used by one call at a time.
+[[nodiscard]] NormalStats gather_normals(IndexRange range, const TriangleView& mesh,
+                                         const GatherInput& input, HalfedgeSet& spill,
+                                         const NormalWriter& writer) noexcept;
+[[nodiscard]] NormalStats gather_normals(IndexRange range, const PolygonView& mesh,
+                                         const GatherInput& input, HalfedgeSet& spill,
+                                         const NormalWriter& writer) noexcept;
+
+/// The sum with what the given corners of triangles add, in their order: the plain form.
+template <NormalWeight W>
+[[nodiscard]] Float3 add_triangle_corners_scalar(Float3 sum, const Index* ids, Index count,
+                                                 const GatherInput& input) noexcept;
+/// Four corners at a time where the processor can; else the same as the plain form.
+/// \pre ids[0 .. count + 2] may be read and written; count > 0
+template <NormalWeight W>
+[[nodiscard]] Float3 add_triangle_corners_sse(Float3 sum, Index* ids, Index count,
+                                              const GatherInput& input) noexcept;
+
+}  // namespace hedgerow::kernels

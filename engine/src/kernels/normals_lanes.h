@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cmath>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+/// One arithmetic for one float and for four: the formulas of the normals are templates over these,
+/// so that SIMD and scalar code perform the same operations in the same order on each lane. Every
+/// operation used is rounded as IEEE 754 says, so the bits agree, too.
+namespace hedgerow::kernels {
+
+[[nodiscard]] inline float square_root(float a) noexcept { return std::sqrt(a); }
+[[nodiscard]] inline float magnitude(float a) noexcept { return std::fabs(a); }
+/// The second argument where one is not a number, as the SSE instruction.
+[[nodiscard]] inline float smaller(float a, float b) noexcept { return a < b ? a : b; }
+[[nodiscard]] inline float larger(float a, float b) noexcept { return a > b ? a : b; }
+[[nodiscard]] inline float select(bool condition, float a, float b) noexcept {
+  return condition ? a : b;
+}
+
+#if defined(__SSE2__)
+
+/// Four comparisons; each lane all ones or all zeros.
+struct Mask4 {
+  __m128 bits;
+
+  friend Mask4 operator&(Mask4 a, Mask4 b) noexcept { return {_mm_and_ps(a.bits, b.bits)}; }
+  /// Bit i: lane i.
+  [[nodiscard]] int lanes() const noexcept { return _mm_movemask_ps(bits); }
+};
+
+struct Float4 {
+  __m128 bits;
+
+  Float4() = default;
+  Float4(__m128 value) noexcept : bits(value) {}              // NOLINT(google-explicit-constructor)
+  Float4(float value) noexcept : bits(_mm_set1_ps(value)) {}  // NOLINT(google-explicit-constructor)
+
+  friend Float4 operator+(Float4 a, Float4 b) noexcept { return _mm_add_ps(a.bits, b.bits); }
+  friend Float4 operator-(Float4 a, Float4 b) noexcept { return _mm_sub_ps(a.bits, b.bits); }
+  friend Float4 operator*(Float4 a, Float4 b) noexcept { return _mm_mul_ps(a.bits, b.bits); }
+  friend Float4 operator/(Float4 a, Float4 b) noexcept { return _mm_div_ps(a.bits, b.bits); }
+  friend Mask4 operator<(Float4 a, Float4 b) noexcept { return {_mm_cmplt_ps(a.bits, b.bits)}; }
+  friend Mask4 operator>(Float4 a, Float4 b) noexcept { return {_mm_cmpgt_ps(a.bits, b.bits)}; }
+  friend Mask4 operator<=(Float4 a, Float4 b) noexcept { return {_mm_cmple_ps(a.bits, b.bits)}; }
+  friend Mask4 operator>=(Float4 a, Float4 b) noexcept { return {_mm_cmpge_ps(a.bits, b.bits)}; }
+};
+
+[[nodiscard]] inline Float4 square_root(Float4 a) noexcept { return _mm_sqrt_ps(a.bits); }
+[[nodiscard]] inline Float4 magnitude(Float4 a) noexcept {
+  return _mm_andnot_ps(_mm_set1_ps(-0.0f), a.bits);
+}
+[[nodiscard]] inline Float4 smaller(Float4 a, Float4 b) noexcept {
+  return _mm_min_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float4 larger(Float4 a, Float4 b) noexcept {
+  return _mm_max_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float4 select(Mask4 condition, Float4 a, Float4 b) noexcept {
+  return _mm_or_ps(_mm_and_ps(condition.bits, a.bits), _mm_andnot_ps(condition.bits, b.bits));
+}
+
+#endif
+
+}  // namespace hedgerow::kernels

@@ -1,0 +1,161 @@
+#pragma once
+
+#include "hedgerow/normals.h"
+#include "kernels/normals_lanes.h"
+
+/// The one definition of what a corner adds to its vertex, from which every method is made.
+namespace hedgerow::kernels {
+
+template <class T>
+struct Vec3 {
+  T x, y, z;
+
+  friend Vec3 operator+(Vec3 a, Vec3 b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(Vec3 a, Vec3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator*(Vec3 a, T s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
+};
+
+using Float3 = Vec3<float>;
+
+template <class T>
+[[nodiscard]] inline T dot(Vec3<T> a, Vec3<T> b) noexcept {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+template <class T>
+[[nodiscard]] inline Vec3<T> cross(Vec3<T> a, Vec3<T> b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Squares outside these have lost digits to underflow or are near overflow; not a number is
+/// outside. What depends on such a square is computed in double instead.
+inline constexpr float kSmallSquare = 0x1p-120f;
+inline constexpr float kLargeSquare = 0x1p120f;
+
+template <class T>
+[[nodiscard]] inline auto is_usual(T square) noexcept {
+  return (square >= T(kSmallSquare)) & (square <= T(kLargeSquare));
+}
+/// The same for one of two squares that are multiplied.
+template <class T>
+[[nodiscard]] inline auto is_usual_factor(T square) noexcept {
+  return (square >= T(0x1p-60f)) & (square <= T(0x1p60f));
+}
+
+inline constexpr float kPi = 3.14159265358979323846f;
+
+// atan(t) = t + t^3 P(t^2) for t <= tan(pi / 8), found by the exchange algorithm: off by 4.9e-9 at
+// the most before rounding. Larger slopes are first turned by pi / 4, where
+// atan(a / b) = pi / 4 - atan((b - a) / (b + a)).
+template <class T>
+[[nodiscard]] inline T angle_of(T cross_length, T dot_product) noexcept {
+  const T adjacent = magnitude(dot_product);
+  const T low = smaller(cross_length, adjacent);
+  const T high = larger(cross_length, adjacent);
+  const auto is_steep = low > high * T(0.41421356f);
+  const T numerator = select(is_steep, low - high, low);
+  const T denominator = select(is_steep, low + high, high);
+  const T t = numerator / select(denominator > T(0.0f), denominator, T(1.0f));
+  const T s = t * t;
+  T p = T(0x1.43ae18p-4f) * s + T(-0x1.1b1f8ap-3f);
+  p = p * s + T(0x1.99062p-3f);
+  p = p * s + T(-0x1.5553d2p-2f);
+  const T small_angle = select(is_steep, T(0.25f * kPi), T(0.0f)) + (t + t * (s * p));
+  const T acute = select(cross_length > adjacent, T(0.5f * kPi) - small_angle, small_angle);
+  return select(dot_product < T(0.0f), T(kPi) - acute, acute);
+}
+
+/// What the three corners of a triangle have in common, and what tells them apart.
+template <class T>
+struct TriangleTerms {
+  Vec3<T> base;  ///< area and max: the area vector; uniform and angle: the unit normal
+  T length;      ///< angle: length of the area vector
+  T factor[3];   ///< angle: dot product at the corner; max: product of the squared lengths there;
+                 ///< else nothing
+};
+
+/// Fills `terms` and returns in which lanes it may be used.
+template <NormalWeight W, class T>
+[[nodiscard]] inline auto triangle_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
+                                         TriangleTerms<T>& terms) noexcept {
+  const Vec3<T> u = p1 - p0;
+  const Vec3<T> v = p2 - p0;
+  const Vec3<T> area = cross(u, v);
+  const T square = dot(area, area);
+  terms.base = area;
+  if constexpr (W == NormalWeight::area) {
+    return is_usual(square);
+  } else if constexpr (W == NormalWeight::uniform) {
+    terms.base = area * (T(1.0f) / square_root(square));
+    return is_usual(square);
+  } else if constexpr (W == NormalWeight::angle) {
+    const Vec3<T> w = p2 - p1;
+    terms.length = square_root(square);
+    terms.base = area * (T(1.0f) / terms.length);
+    terms.factor[0] = dot(u, v);
+    terms.factor[1] = T(0.0f) - dot(u, w);
+    terms.factor[2] = dot(v, w);
+    const T extent = (dot(u, u) + dot(v, v)) + dot(w, w);
+    return is_usual(square) & (extent <= T(kLargeSquare));
+  } else {
+    const Vec3<T> w = p2 - p1;
+    const T uu = dot(u, u);
+    const T vv = dot(v, v);
+    const T ww = dot(w, w);
+    terms.factor[0] = uu * vv;
+    terms.factor[1] = uu * ww;
+    terms.factor[2] = vv * ww;
+    return is_usual_factor(uu) & is_usual_factor(vv) & is_usual_factor(ww);
+  }
+}
+
+/// What corner k adds, given its factor.
+template <NormalWeight W, class T>
+[[nodiscard]] inline Vec3<T> corner_term(const TriangleTerms<T>& terms, T factor) noexcept {
+  if constexpr (W == NormalWeight::angle) {
+    return terms.base * angle_of(terms.length, factor);
+  } else if constexpr (W == NormalWeight::max) {
+    return terms.base * (T(1.0f) / factor);
+  } else {
+    return terms.base;
+  }
+}
+
+/// A float vector times 2^exponent. Usual values have exponent 0; zero says "no direction".
+struct Wide {
+  Float3 v{0, 0, 0};
+  int exponent = 0;
+};
+
+/// What corner k of a triangle adds, in full range. Points that are not finite add nothing.
+template <NormalWeight W>
+[[nodiscard]] Wide wide_corner(Float3 p0, Float3 p1, Float3 p2, int k) noexcept;
+
+/// What a corner of a polygon of at least four corners adds. `face`: see `face_vector`.
+template <NormalWeight W>
+[[nodiscard]] Wide wide_corner(const Wide& face, Float3 before, Float3 here, Float3 after) noexcept;
+
+/// The area vector of a triangle; where `unit`, divided by its length.
+[[nodiscard]] Wide triangle_vector(Float3 p0, Float3 p1, Float3 p2, bool unit) noexcept;
+
+/// The value as a plain float vector. Not a number where that would lose digits, so that the sum is
+/// found out and done again in full range.
+[[nodiscard]] Float3 narrow(const Wide& value) noexcept;
+
+/// The exponent of the largest component, or kNoExponent for zero.
+inline constexpr int kNoExponent = -2000;
+[[nodiscard]] int exponent_of(const Wide& value) noexcept;
+/// The value divided by 2^exponent, as a plain float vector.
+[[nodiscard]] Float3 scaled(const Wide& value, int exponent) noexcept;
+
+/// The unit vector of a sum scaled by `exponent_of` its largest term. False: the sum is zero.
+[[nodiscard]] bool normalise_wide(Float3 sum, Float3& unit) noexcept;
+
+/// Whether corner p0, p1, p2 of the float path may be used; if so, the sum's unit vector.
+[[nodiscard]] inline bool normalise(Float3 sum, Float3& unit) noexcept {
+  const float square = dot(sum, sum);
+  if (!is_usual(square)) return false;
+  unit = sum * (1.0f / square_root(square));
+  return true;
+}
+
+}  // namespace hedgerow::kernels

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "kernels/normals_source.h"
+
+#if defined(__SSE2__)
+
+/// Moving float3 values in and out of four lanes.
+namespace hedgerow::kernels {
+
+/// A position as one vector; the last lane holds anything. A 16-byte load would read four bytes
+/// behind the last z, so the last position is put together from two parts.
+[[nodiscard]] inline __m128 load_point(const Points& points, Index v) noexcept {
+  const float* p = points.positions[v];
+  if (v + 1 < points.positions.count) [[likely]]
+    return _mm_loadu_ps(p);
+  const __m128 xy = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p)));
+  return _mm_movelh_ps(xy, _mm_load_ss(p + 2));
+}
+
+/// The positions of four vertices that lie `step` apart in `v`.
+[[nodiscard]] inline Vec3<Float4> load_points(const Points& points, const Index* v,
+                                              int step) noexcept {
+  __m128 a = load_point(points, v[0]);
+  __m128 b = load_point(points, v[step]);
+  __m128 c = load_point(points, v[2 * step]);
+  __m128 d = load_point(points, v[3 * step]);
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  return {a, b, c};
+}
+
+/// Four vectors, each with `w` behind it.
+struct Rows {
+  __m128 row[4];
+};
+[[nodiscard]] inline Rows to_rows(const Vec3<Float4>& v, float w) noexcept {
+  Rows rows{{v.x.bits, v.y.bits, v.z.bits, _mm_set1_ps(w)}};
+  _MM_TRANSPOSE4_PS(rows.row[0], rows.row[1], rows.row[2], rows.row[3]);
+  return rows;
+}
+
+[[nodiscard]] inline Float3 to_float3(__m128 row) noexcept {
+  float v[4];
+  _mm_storeu_ps(v, row);
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace hedgerow::kernels
+
+#endif

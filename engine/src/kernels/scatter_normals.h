@@ -1,0 +1,62 @@
+#pragma once
+
+#include "kernels/normals_source.h"
+
+/// The linear face list, for one block of vertices: add the faces, finish, and where a sum left the
+/// range of float, add those again in full range.
+namespace hedgerow::kernels {
+
+/// The sum at one vertex.
+struct alignas(16) VertexSum {
+  Float3 sum{0, 0, 0};
+  /// Corners added so far (up to rounding), so 0 is "on no face"; once found out of range,
+  /// negative: the largest exponent of its terms so far, minus a bias.
+  float state = 0;
+};
+static_assert(sizeof(VertexSum) == 16);
+
+/// Vertices [begin, begin + size), whose sums are sums[0 .. size).
+struct SumBlock {
+  Index begin = 0;
+  Index size = 0;
+  VertexSum* sums = nullptr;
+
+  [[nodiscard]] bool holds(Index v) const noexcept { return v >= begin && v - begin < size; }
+  [[nodiscard]] VertexSum& operator[](Index v) const noexcept { return sums[v - begin]; }
+};
+
+struct ScatterInput {
+  FaceSource faces;
+  Points points;
+  NormalWeight weight{};
+  PolygonMethod polygon{};
+};
+
+/// Adds what each corner in `range` adds to the vertices of the block, in ascending corner order.
+/// `is_inside`: every corner is known to be in the block.
+void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& block,
+                   bool is_inside) noexcept;
+
+/// Writes the normals of the block and marks the sums that are to be added again, whose number it
+/// adds to `again_count`.
+[[nodiscard]] NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
+                                      Index& again_count) noexcept;
+
+/// For marked sums: the largest exponent of a term; then the sum of the terms scaled by it; then
+/// the normals.
+void scatter_exponents(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept;
+void scatter_scaled(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept;
+[[nodiscard]] NormalStats finish_scaled(const SumBlock& block, const NormalWriter& writer) noexcept;
+
+/// The plain form for triangles: `corners` are those of `range`, packed.
+void scatter_triangles_scalar(IndexRange range, const Index* corners, const ScatterInput& input,
+                              const SumBlock& block, bool is_inside) noexcept;
+/// Four triangles at a time where the processor can; else the same as the plain form.
+void scatter_triangles_sse(IndexRange range, const Index* corners, const ScatterInput& input,
+                           const SumBlock& block, bool is_inside) noexcept;
+
+/// Which blocks of 2^shift vertices a run of faces touches, as a row of bits.
+void mark_blocks(IndexRange corners, const FaceSource& faces, int shift,
+                 std::uint64_t* bits) noexcept;
+
+}  // namespace hedgerow::kernels

@@ -1,0 +1,117 @@
+#include <cstdlib>
+#include <malloc.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/normal_meshes.h"
+
+namespace hedgerow {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+struct Case {
+  bool is_gather;
+  NormalWeight weight;
+};
+
+Result<NormalStats> call(const Case& c, const Soup& soup, const Connectivity& mesh,
+                         std::vector<float>& out, const Execution& execution,
+                         Workspace& workspace) {
+  NormalOptions options;
+  options.weight = c.weight;
+  const NormalsOut to{out.data(), soup.vertex_count()};
+  return c.is_gather
+             ? gather_vertex_normals(mesh, soup.positions(), to, options, execution, workspace)
+             : scatter_vertex_normals(soup.face_list(), soup.positions(), to, options, execution,
+                                      workspace);
+}
+
+std::size_t needed(const Case& c, const Soup& soup, const Connectivity& mesh,
+                   const Execution& execution) {
+  NormalOptions options;
+  options.weight = c.weight;
+  return c.is_gather ? gather_vertex_normals_scratch_bytes(mesh, options, execution)
+                     : scatter_vertex_normals_scratch_bytes(soup.face_list(), options, execution);
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const bool is_gather : {true, false}) {
+    for (const NormalWeight weight : test::kWeights) cases.push_back({is_gather, weight});
+  }
+  return cases;
+}
+
+TEST(NormalScratch, OfTheSizeAskedForIsEnoughAndOneByteLessIsNot) {
+  const test::Executions executions;
+  std::vector<Soup> soups;
+  soups.push_back(test::random_soup(3, 200, 500, 3));
+  soups.push_back(test::random_soup(4, 200, 300, 6));
+  soups.push_back(test::wavy_fan(300));
+  for (const Soup& soup : soups) {
+    const Connectivity mesh = test::mesh_of(soup);
+    for (const Case& c : all_cases()) {
+      for (const Execution& execution : executions.all()) {
+        const std::size_t bytes = needed(c, soup, mesh, execution);
+        std::vector<float> out(soup.xyz.size(), 5.0f);
+        auto* memory = static_cast<std::byte*>(std::aligned_alloc(64, (bytes + 127) / 64 * 64));
+        Workspace enough({memory, bytes});
+        EXPECT_TRUE(call(c, soup, mesh, out, execution, enough));
+        if (bytes > 0) {
+          out.assign(out.size(), 5.0f);
+          Workspace too_small({memory, bytes - 1});
+          const auto result = call(c, soup, mesh, out, execution, too_small);
+          ASSERT_FALSE(result);
+          EXPECT_EQ(result.error().code, ErrorCode::scratch_too_small);
+          EXPECT_EQ(result.error().value, static_cast<std::int64_t>(bytes - 1));
+          EXPECT_EQ(result.error().limit, static_cast<std::int64_t>(bytes));
+          EXPECT_EQ(out, std::vector<float>(out.size(), 5.0f));
+        }
+        std::free(memory);
+      }
+    }
+  }
+}
+
+TEST(NormalScratch, OfAnySizeGivesTheAnswerOrTheErrorAndNothingElse) {
+  const Soup soup = test::random_soup(6, 40, 90, 5);
+  const Connectivity mesh = test::mesh_of(soup);
+  const Execution execution = Execution::serial().with_grain(8);
+  for (const Case& c : all_cases()) {
+    const std::size_t bytes = needed(c, soup, mesh, execution);
+    Workspace growing;
+    std::vector<float> expected(soup.xyz.size());
+    ASSERT_TRUE(call(c, soup, mesh, expected, execution, growing));
+    for (std::size_t size = 0; size <= bytes; size += size + 64 < bytes ? 7 : 1) {
+      auto* memory = static_cast<std::byte*>(std::aligned_alloc(64, (size + 127) / 64 * 64));
+      std::vector<float> out(soup.xyz.size(), 5.0f);
+      Workspace fixed({memory, size});
+      const auto result = call(c, soup, mesh, out, execution, fixed);
+      EXPECT_EQ(result.has_value(), size >= bytes);
+      EXPECT_EQ(out, result ? expected : std::vector<float>(out.size(), 5.0f));
+      std::free(memory);
+    }
+  }
+}
+
+TEST(NormalScratch, IsNotAllocatedASecondTime) {
+  const Soup soup = test::wavy_grid(100);
+  const Connectivity mesh = test::mesh_of(soup);
+  std::vector<float> out(static_cast<std::size_t>(soup.face_count()) * 3);
+  for (const Case& c : all_cases()) {
+    Workspace workspace;
+    ASSERT_TRUE(call(c, soup, mesh, out, Execution::serial(), workspace));
+    const std::byte* memory = workspace.data();
+    const auto before = mallinfo2();
+    ASSERT_TRUE(call(c, soup, mesh, out, Execution::serial(), workspace));
+    const auto after = mallinfo2();
+    EXPECT_EQ(before.uordblks, after.uordblks);
+    EXPECT_EQ(before.hblkhd, after.hblkhd);
+    EXPECT_EQ(workspace.data(), memory);
+  }
+}
+
+}  // namespace
+}  // namespace hedgerow
