@@ -111,6 +111,9 @@ struct PolygonView {
     if (f.valid()) {
       return HalfedgeId(h == first_of[f] ? first_of[FaceId(f.value + 1)].value - 1 : h.value - 1);
     }
+    // Loops are numbered in a row but for their ends.
+    const HalfedgeId before(h.value - 1);
+    if (before.valid() && next_of[before] == h) return before;
     HalfedgeId incoming = opposite[h];
     while (next_of[incoming] != h) incoming = opposite[next_of[incoming]];
     return incoming;

@@ -17,7 +17,7 @@ struct Violation {
   ElementKind kind{};
   Index element = kInvalidIndex;
   const char* relation = "";  ///< e.g. "opposite[opposite[h]] == h"; static text
-  std::int64_t expected = 0;
+  std::int64_t expected = 0;  ///< where a value is out of range: the count to stay below
   std::int64_t got = 0;
 };
 
@@ -25,9 +25,11 @@ struct Violation {
 /// element and relation; empty if the mesh is sound.
 ///
 /// A mesh whose columns hold any values at all may be passed: nothing is followed before it is
-/// known to be in range, and no walk is longer than the mesh. Complexity O(V + H + F), no cap on
-/// valence or degree; reads every column about three times. Threads    Those of `execution`; the
-/// same list for all of them.
+/// known to be in range, and no walk is longer than the mesh. I6 holds for each fan of a vertex by
+/// itself. Columns of lengths that disagree are all that is reported of such a mesh.
+///
+/// Complexity O(V + H + F), no cap on valence or degree; reads every column about three times.
+/// Threads    Those of `execution`; the same list for all of them.
 [[nodiscard]] std::vector<Violation> validate(const Connectivity& mesh, const Execution& execution);
 
 }  // namespace hedgerow
