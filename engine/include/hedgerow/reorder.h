@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "hedgerow/assert.h"
 #include "hedgerow/buffer.h"
 #include "hedgerow/connectivity.h"
 #include "hedgerow/execution.h"
@@ -26,6 +30,7 @@ struct Locality {
   double lines_per_face = 0;
 };
 
+/// Complexity O(H), on the calling thread. All zero for a mesh without faces.
 [[nodiscard]] Locality locality(const Connectivity& mesh);
 
 /// A renumbering. Each array is a permutation; `new_to_old[i]` is the old number of new element i,
@@ -36,6 +41,21 @@ struct Reordering {
   Buffer<Index> faces_new_to_old;
   Buffer<Index> halfedges_new_to_old;
 };
+
+/// Carries a caller's own array along: element i of `out` is element new_to_old[i] of `old_values`,
+/// an element being `width` values (3 for packed positions).
+///
+/// \pre `old_values` and `out` do not overlap and have width values for each entry of `new_to_old`.
+template <class T>
+void fill_permuted(std::span<const Index> new_to_old, std::span<const T> old_values,
+                   std::span<T> out, std::size_t width = 1) noexcept {
+  HEDGEROW_ASSERT(old_values.size() == width * new_to_old.size());
+  HEDGEROW_ASSERT(out.size() == width * new_to_old.size());
+  for (std::size_t i = 0; i < new_to_old.size(); ++i) {
+    const auto from = static_cast<std::size_t>(new_to_old[i]) * width;
+    std::copy_n(old_values.data() + from, width, out.data() + i * width);
+  }
+}
 
 struct ReorderOutput {
   Connectivity mesh;  ///< canonical, default form, as the builder would have made it

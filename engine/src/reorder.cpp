@@ -1,0 +1,230 @@
+// The columns are permuted, not built again: a build would be no faster, and it would pair anew
+// what the policies of the first build have cut.
+
+#include "hedgerow/reorder.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "kernels/gather_reordered.h"
+#include "kernels/materialise.h"
+#include "parallel/parallel.h"
+#include "reorder/orders.h"
+
+namespace hedgerow {
+
+namespace {
+
+constexpr Index kGrain = 1 << 14;  // elements a task
+
+bool is_curve(ReorderMethod method) {
+  return method == ReorderMethod::hilbert || method == ReorderMethod::morton;
+}
+
+Result<void> check_positions(const Positions& positions, Index vertex_count) {
+  constexpr auto kLeast = static_cast<std::int64_t>(3 * sizeof(float));
+  const auto stride = static_cast<std::int64_t>(positions.stride_bytes);
+  if (positions.count < vertex_count) {
+    return fail({ErrorCode::count_mismatch, kInvalidIndex, positions.count, vertex_count});
+  }
+  if (stride < kLeast || positions.stride_bytes % sizeof(float) != 0) {
+    return fail({ErrorCode::bad_stride, kInvalidIndex, stride, kLeast});
+  }
+  if (vertex_count > 0 && positions.data == nullptr) return fail({ErrorCode::null_pointer});
+  return {};
+}
+
+Buffer<Index> inverse_of(const Buffer<Index>& permutation, const Execution& execution) {
+  Buffer<Index> inverse(permutation.size());
+  par::for_each_range(execution, static_cast<Index>(permutation.size()), kGrain,
+                      [&](IndexRange range) {
+                        kernels::scatter_inverse(range, permutation.data(), inverse.data());
+                      });
+  return inverse;
+}
+
+Reordering choose_order(const Connectivity& mesh, const Positions& positions, ReorderMethod method,
+                        const Execution& execution) {
+  Reordering order;
+  switch (method) {
+    case ReorderMethod::hilbert:
+      order.vertices_new_to_old =
+          detail::hilbert_vertices(positions, mesh.vertex_count(), execution);
+      break;
+    case ReorderMethod::morton:
+      order.vertices_new_to_old =
+          detail::morton_vertices(positions, mesh.vertex_count(), execution);
+      break;
+    case ReorderMethod::breadth_first:
+      order.vertices_new_to_old = detail::breadth_first_vertices(mesh);
+      break;
+    case ReorderMethod::vertex_cache:
+      order.faces_new_to_old = detail::vertex_cache_faces(mesh);
+      order.vertices_new_to_old = detail::vertices_by_first_use(mesh, order.faces_new_to_old);
+      break;
+  }
+  order.vertices_old_to_new = inverse_of(order.vertices_new_to_old, execution);
+  if (method != ReorderMethod::vertex_cache) {
+    order.faces_new_to_old =
+        detail::faces_by_smallest_vertex(mesh, order.vertices_old_to_new, execution);
+  }
+  return order;
+}
+
+// The new mesh, column by column.
+template <Topology OldMesh>
+class Renumbering {
+ public:
+  Renumbering(const OldMesh& mesh, Reordering& order, bool is_triangles, const Execution& execution)
+      : mesh_(mesh), order_(order), is_triangles_(is_triangles), execution_(execution) {}
+
+  Connectivity run() {
+    number_halfedges();
+    pair();
+    ConnectivityColumns columns;
+    if (is_triangles_) {
+      start_fans(TriangleView{column<VertexId>(origin_), column<HalfedgeId>(opposite_), {}, {}});
+    } else {
+      fill_next_and_face();
+      start_fans(PolygonView{column<VertexId>(origin_),
+                             column<HalfedgeId>(opposite_),
+                             {},
+                             column<HalfedgeId>(next_),
+                             column<FaceId>(face_),
+                             {first_.data(), static_cast<Index>(first_.size())},
+                             {}});
+    }
+    columns.origin = std::move(origin_);
+    columns.opposite = std::move(opposite_);
+    columns.outgoing = std::move(outgoing_);
+    columns.next = std::move(next_);
+    columns.face = std::move(face_);
+    columns.first = std::move(first_);
+    columns.fans = Buffer<FanStart>::copy_of(fans_);
+    columns.all_triangles = is_triangles_;
+    return Connectivity(std::move(columns));
+  }
+
+ private:
+  template <class Value>
+  static Column<HalfedgeId, Value> column(const Buffer<Index>& values) {
+    return {values.data(), static_cast<Index>(values.size())};
+  }
+
+  void number_halfedges() {
+    const auto halfedges = static_cast<std::size_t>(mesh_.halfedge_count());
+    if (!is_triangles_) {
+      first_ = Buffer<Index>(order_.faces_new_to_old.size() + 1);
+      Index h = 0;
+      for (std::size_t f = 0; f < order_.faces_new_to_old.size(); ++f) {
+        first_[f] = h;
+        h += mesh_.degree(FaceId(order_.faces_new_to_old[f]));
+      }
+      first_[order_.faces_new_to_old.size()] = h;
+    }
+    order_.halfedges_new_to_old = Buffer<Index>(halfedges);
+    origin_ = Buffer<Index>(halfedges);
+    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+      kernels::gather_halfedges(faces, mesh_, order_.faces_new_to_old.data(), first_.data(),
+                                order_.vertices_old_to_new.data(),
+                                order_.halfedges_new_to_old.data(), origin_.data());
+    });
+    halfedges_old_to_new_ = inverse_of(order_.halfedges_new_to_old, execution_);
+  }
+
+  void pair() {
+    opposite_ = Buffer<Index>(origin_.size());
+    par::for_each_range(execution_, mesh_.halfedge_count(), kGrain, [&](IndexRange range) {
+      kernels::gather_opposites(range, mesh_, order_.halfedges_new_to_old.data(),
+                                halfedges_old_to_new_.data(), opposite_.data());
+    });
+  }
+
+  void fill_next_and_face() {
+    next_ = Buffer<Index>(origin_.size());
+    face_ = Buffer<Index>(origin_.size());
+    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+      kernels::fill_polygon_columns(faces, first_.data(), next_.data(), face_.data());
+    });
+  }
+
+  template <Topology Mesh>
+  void start_fans(const Mesh& mesh) {
+    outgoing_ = Buffer<Index>(static_cast<std::size_t>(mesh_.vertex_count()));
+    par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
+      kernels::gather_outgoing(range, mesh_, mesh, order_.vertices_new_to_old.data(),
+                               halfedges_old_to_new_.data(), outgoing_.data());
+    });
+    sort_fans(mesh);
+  }
+
+  // At the few vertices with several fans, the one with the smallest half-edge goes first.
+  template <Topology Mesh>
+  void sort_fans(const Mesh& mesh) {
+    struct VertexFan {
+      VertexId vertex;
+      kernels::Fan fan;
+    };
+    std::vector<VertexFan> found;
+    const auto add = [&](VertexId v, HalfedgeId start) {
+      found.push_back({v, kernels::find_fan(mesh, start)});
+    };
+    VertexId last_old;
+    for (const FanStart& old : mesh_.fans) {
+      const VertexId v(order_.vertices_old_to_new[static_cast<std::size_t>(old.vertex.value)]);
+      if (old.vertex != last_old) {
+        add(v, HalfedgeId(outgoing_[static_cast<std::size_t>(v.value)]));
+      }
+      last_old = old.vertex;
+      add(v, HalfedgeId(halfedges_old_to_new_[static_cast<std::size_t>(old.start.value)]));
+    }
+    std::sort(found.begin(), found.end(), [](const VertexFan& a, const VertexFan& b) {
+      return std::tuple(a.vertex, a.fan.smallest) < std::tuple(b.vertex, b.fan.smallest);
+    });
+    VertexId last;
+    for (const VertexFan& f : found) {
+      if (f.vertex != last) {
+        outgoing_[static_cast<std::size_t>(f.vertex.value)] = f.fan.start.value;
+      } else {
+        fans_.push_back({f.vertex, f.fan.start});
+      }
+      last = f.vertex;
+    }
+  }
+
+  const OldMesh& mesh_;
+  Reordering& order_;
+  bool is_triangles_;
+  const Execution& execution_;
+  Buffer<Index> halfedges_old_to_new_;
+  Buffer<Index> origin_;
+  Buffer<Index> opposite_;
+  Buffer<Index> outgoing_;
+  Buffer<Index> next_;
+  Buffer<Index> face_;
+  Buffer<Index> first_;
+  std::vector<FanStart> fans_;
+};
+
+}  // namespace
+
+Result<ReorderOutput> reorder(const Connectivity& mesh, Positions positions, ReorderMethod method,
+                              const Execution& execution) {
+  if (mesh.form() != Form::open) return fail({ErrorCode::already_closed});
+  if (is_curve(method)) {
+    if (auto ok = check_positions(positions, mesh.vertex_count()); !ok) return fail(ok.error());
+  }
+  ReorderOutput output;
+  output.before = locality(mesh);
+  output.reordering = choose_order(mesh, positions, method, execution);
+  output.mesh = mesh.visit([&](const auto& view) {
+    return Renumbering(view, output.reordering, mesh.is_triangle_mesh(), execution).run();
+  });
+  output.after = locality(output.mesh);
+  return output;
+}
+
+}  // namespace hedgerow

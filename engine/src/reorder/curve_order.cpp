@@ -1,0 +1,40 @@
+#include <utility>
+
+#include "kernels/curve_keys.h"
+#include "parallel/parallel.h"
+#include "reorder/orders.h"
+#include "reorder/stable_sort.h"
+
+namespace hedgerow::detail {
+
+namespace {
+
+constexpr Index kGrain = 1 << 14;  // vertices a task: 400 KB read and written
+
+Buffer<Index> along_curve(const Positions& positions, Index vertex_count,
+                          const Execution& execution, kernels::CurveKey* key_of) {
+  const kernels::Box box = par::reduce<kernels::Box>(
+      execution, vertex_count, kGrain,
+      [&](IndexRange range) { return kernels::find_box(range, positions); },
+      [](const kernels::Box& a, const kernels::Box& b) { return join(a, b); });
+  const kernels::Lattice lattice(box);
+  Buffer<kernels::KeyedItem> items(static_cast<std::size_t>(vertex_count));
+  par::for_each_range(execution, vertex_count, kGrain, [&](IndexRange range) {
+    kernels::fill_curve_keys(range, positions, lattice, key_of, items.data());
+  });
+  return sorted_items(std::move(items), execution);
+}
+
+}  // namespace
+
+Buffer<Index> hilbert_vertices(const Positions& positions, Index vertex_count,
+                               const Execution& execution) {
+  return along_curve(positions, vertex_count, execution, kernels::hilbert_key);
+}
+
+Buffer<Index> morton_vertices(const Positions& positions, Index vertex_count,
+                              const Execution& execution) {
+  return along_curve(positions, vertex_count, execution, kernels::morton_key);
+}
+
+}  // namespace hedgerow::detail

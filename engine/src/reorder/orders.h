@@ -1,0 +1,33 @@
+#pragma once
+
+#include "hedgerow/buffer.h"
+#include "hedgerow/connectivity.h"
+#include "hedgerow/execution.h"
+#include "hedgerow/positions.h"
+
+/// The orders that `reorder` offers, as permutations from new numbers to old ones.
+namespace hedgerow::detail {
+
+/// Vertices along a space-filling curve, those in one cell in old order.
+[[nodiscard]] Buffer<Index> hilbert_vertices(const Positions& positions, Index vertex_count,
+                                             const Execution& execution);
+[[nodiscard]] Buffer<Index> morton_vertices(const Positions& positions, Index vertex_count,
+                                            const Execution& execution);
+
+/// Vertices by breadth-first search over edges, components by their smallest vertex, isolated
+/// vertices last.
+[[nodiscard]] Buffer<Index> breadth_first_vertices(const Connectivity& mesh);
+
+/// Faces such that most of their vertices are among the last few used.
+[[nodiscard]] Buffer<Index> vertex_cache_faces(const Connectivity& mesh);
+
+/// Vertices as the faces meet them, isolated ones last.
+[[nodiscard]] Buffer<Index> vertices_by_first_use(const Connectivity& mesh,
+                                                  const Buffer<Index>& faces_new_to_old);
+
+/// Faces by their smallest new vertex, those with the same one in old order.
+[[nodiscard]] Buffer<Index> faces_by_smallest_vertex(const Connectivity& mesh,
+                                                     const Buffer<Index>& vertices_old_to_new,
+                                                     const Execution& execution);
+
+}  // namespace hedgerow::detail
