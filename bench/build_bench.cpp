@@ -83,7 +83,8 @@ Work prepare_adjacency(const Dataset& data) {
   };
   work.cleanup = [adjacency] { *adjacency = {}; };
   work.run();
-  if (!agrees(*adjacency, data)) work.error = "other neighbours than the reference; not measured";
+  if (!agrees(*adjacency, data))
+    work.error = "other neighbours than the reference (it joins equal positions); not measured";
   work.cleanup();
   return work;
 }

@@ -50,6 +50,7 @@ void add_buffer(const Plan& plan);
 void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
 void add_query(const Plan& plan);
+void add_validate(const Plan& plan);
 
 /// Runs what was registered and passed the filter; returns the number that reported an error.
 /// \pre `has_output_file` says whether --benchmark_out was given.

@@ -1,0 +1,52 @@
+// hedgerow/validate.h: all invariants of a sound mesh.
+#include <memory>
+
+#include "hedgerow/validate.h"
+#include "runner.h"
+
+namespace hedgerow::bench {
+
+namespace {
+
+double compulsory_bytes(const Dataset& data) {
+  const Counts counts = counts_of(data);
+  return kIndexBytes * (2 * counts.halfedges + counts.vertices);
+}
+
+/// A copy whose first opposite is wrong: what must be found before finding nothing means anything.
+bool finds_damage(const Dataset& data, const Execution& execution) {
+  Buffer<Index> opposite = Buffer<Index>::copy_of(data.mesh.opposite());
+  opposite[0] = 0;
+  ConnectivityColumns columns;
+  columns.origin = ColumnStorage::borrow(data.mesh.origin());
+  columns.opposite = std::move(opposite);
+  columns.outgoing = ColumnStorage::borrow(data.mesh.outgoing());
+  columns.all_triangles = true;
+  const Connectivity damaged(std::move(columns));
+  return !validate(damaged, execution).empty();
+}
+
+Work prepare(const Dataset& data, const Execution& execution) {
+  auto violations = std::make_shared<std::vector<Violation>>();
+  Work work;
+  work.run = [&data, execution, violations] { *violations = validate(data.mesh, execution); };
+  work.run();
+  if (!violations->empty()) {
+    work.error = "violations in a sound mesh; not measured";
+  } else if (data.mesh.is_implicit() && !finds_damage(data, execution)) {
+    work.error = "no violation in a damaged mesh; not measured";
+  }
+  return work;
+}
+
+}  // namespace
+
+void add_validate(const Plan& plan) {
+  for (const DatasetKey& key : plan.large) {
+    for (const int threads : plan.threads) {
+      add(plan, {"validate", key, threads, "", prepare, compulsory_bytes});
+    }
+  }
+}
+
+}  // namespace hedgerow::bench
