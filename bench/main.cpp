@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
   hedgerow::bench::add_buffer(plan);
   hedgerow::bench::add_build(plan);
   hedgerow::bench::add_boundary(plan);
+  hedgerow::bench::add_normals(plan);
   hedgerow::bench::add_circulate(plan);
   hedgerow::bench::add_query(plan);
   hedgerow::bench::add_validate(plan);

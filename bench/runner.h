@@ -49,6 +49,7 @@ void add_boundary(const Plan& plan);
 void add_buffer(const Plan& plan);
 void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
+void add_normals(const Plan& plan);
 void add_query(const Plan& plan);
 void add_validate(const Plan& plan);
 
