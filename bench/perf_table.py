@@ -25,7 +25,7 @@ RESULTS = FOLDER / "results" / "results.json"
 PERF = FOLDER.parent / "PERF.md"
 
 NS_PER_UNIT = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-COUNTERS = ("bytes", "faces", "halfedges", "mesh_bytes", "vertices")
+COUNTERS = ("bytes", "faces", "halfedges", "mesh_bytes", "processor_ns", "vertices")
 BASELINES = ("pointer", "struct")
 PEERS = ("openmesh", "cgal", "meshoptimizer")
 # The bandwidth kernel that mixes reads and writes as the operation does.
@@ -70,6 +70,7 @@ class Row:
         self.threads = int(parts[3])
         self.variant = "/".join(parts[4:])
         self.times_ns = []
+        self.processor_ns = []
         self.error = None
         self.counters = {}
 
@@ -98,6 +99,8 @@ def read_results(path):
             row.error = entry.get("error_message", "")
             continue
         row.times_ns.append(entry["real_time"] * NS_PER_UNIT[entry["time_unit"]])
+        if "processor_ns" in entry:
+            row.processor_ns.append(entry["processor_ns"])
         row.counters = {key: entry[key] for key in COUNTERS if key in entry}
     return document["context"], rows
 
@@ -185,8 +188,18 @@ def machine_table(context, rows):
     body = [[title, str(context[key])] for title, key in names if key in context]
     body.insert(3, ["caches", caches])
     body.append(["benchmark library", library])
+    shared = shared_time(rows)
+    if shared is not None:
+        body.append(["time taken by other programs", f"{100 * max(0.0, shared):.0f} % of the serial rows'"])
     lines = ["| | |", "|---|---|"] + ["| " + " | ".join(cells) + " |" for cells in body]
     return "\n".join(lines)
+
+
+def shared_time(rows):
+    """Share of the time of the serial measurements in which this process did not run."""
+    serial = [row for row in rows.values() if row.threads == 1 and row.processor_ns]
+    passed = sum(sum(row.times_ns) for row in serial)
+    return 1 - sum(sum(row.processor_ns) for row in serial) / passed if passed else None
 
 
 def bandwidth_table(context, rows):

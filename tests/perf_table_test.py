@@ -159,6 +159,13 @@ class Context(unittest.TestCase):
         self.assertIn("a processor", table)
         self.assertIn("L1 Data 32 KiB x2", table)
 
+    def test_says_how_much_of_the_time_others_took(self):
+        table = perf_table.machine_table(*read(
+            entry("build/grid/4M/1", 20, processor_ns=15e6), entry("one_ring/grid/4M/1", 20,
+                                                                   processor_ns=5e6),
+            entry("build/grid/4M/2", 20, processor_ns=40e6)))
+        self.assertIn("50 % of the serial rows'", table)
+
     def test_is_stored_as_json(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a" / "results.json"
