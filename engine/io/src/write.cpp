@@ -1,5 +1,6 @@
 #include "hedgerow/io/write.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -56,6 +57,23 @@ std::optional<std::string> defect_of(const WriteInput& input) {
   return std::nullopt;
 }
 
+// The formats' own limits; text has none.
+std::optional<std::string> excess_of(const WriteInput& input, Format format) {
+  constexpr std::int64_t kLargestInt = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kLargestUnsigned = std::numeric_limits<std::uint32_t>::max();
+  if (format == Format::ply && input.positions.count > kLargestInt) {
+    return fmt::format("{} vertices; the int indices of PLY reach {}", input.positions.count,
+                       kLargestInt);
+  }
+  // A face of n corners becomes n - 2 triangles.
+  const std::int64_t most_triangles =
+      input.faces.is_triangles() ? input.faces.face_count : input.faces.corner_count();
+  if (format == Format::stl && most_triangles > kLargestUnsigned) {
+    return fmt::format("up to {} triangles; STL counts to {}", most_triangles, kLargestUnsigned);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 IoResult<WriteOutput> write(const std::filesystem::path& path, const WriteInput& input,
@@ -67,6 +85,9 @@ IoResult<WriteOutput> write(const std::filesystem::path& path, const WriteInput&
   }
   if (std::optional<std::string> defect = defect_of(input)) {
     return refuse(path, IoErrorCode::bad_mesh, std::move(*defect));
+  }
+  if (std::optional<std::string> excess = excess_of(input, *format)) {
+    return refuse(path, IoErrorCode::too_many_elements, std::move(*excess));
   }
   IoResult<AtomicFile> file = AtomicFile::create(path, {options.durable});
   if (!file) return tl::unexpected<IoError>(std::move(file.error()));
