@@ -4,6 +4,14 @@
 
 namespace hedgerow::tool {
 
+void add_convert(Program& program);
+void add_generate(Program& program);
+void add_inspect(Program& program);
+void add_normals(Program& program);
+void add_reorder(Program& program);
+void add_repair(Program& program);
+void add_report(Program& program);
+
 /// All commands, in the order of the help.
 void add_commands(Program& program);
 

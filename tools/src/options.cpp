@@ -12,14 +12,25 @@ namespace {
 
 constexpr std::string_view kNonFinite = "non-finite";
 
+/// The default first.
 std::string supported_actions(DefectKind kind) {
-  std::string words;
+  std::string words = name(Policies{}[kind]);
   for (const Action action :
        {Action::fail, Action::skip, Action::cut, Action::split, Action::keep}) {
-    if (!is_supported(kind, action)) continue;
-    words += fmt::format("{}{}", words.empty() ? "" : ", ", name(action));
+    if (!is_supported(kind, action) || action == Policies{}[kind]) continue;
+    words += fmt::format(", {}", name(action));
   }
   return words;
+}
+
+/// One line for each kind.
+std::string policy_table() {
+  std::string lines;
+  for (std::size_t i = 0; i < kDefectKindCount; ++i) {
+    const auto kind = static_cast<DefectKind>(i);
+    lines += fmt::format("  {:<18} {}\n", name(kind), supported_actions(kind));
+  }
+  return lines + fmt::format("  {:<18} {}", kNonFinite, "fail, keep");
 }
 
 std::string known_kinds() {
@@ -74,9 +85,9 @@ void add_options(CLI::App& app, Options& options) {
          [&options](const std::vector<std::string>& texts) {
            for (const std::string& text : texts) set_policy(text, options);
          },
-         fmt::format("What to do about a kind of defect; may be repeated.\n"
-                     "Kinds: {}.\nActions: fail, skip, cut, split, keep",
-                     known_kinds()))
+         "What to do about a kind of defect; may be repeated.\nActions of each kind, the default "
+         "first:\n" +
+             policy_table())
       ->type_name("KIND=ACTION")
       ->allow_extra_args(false)
       ->group(group);

@@ -28,8 +28,6 @@ Program::Program() : app_("Half-edge mesh connectivity: inspect, repair, convert
   app_.require_subcommand(1);
   app_.get_formatter()->column_width(34);
   app_.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app_.get_formatter()->label("SUBCOMMANDS", "COMMANDS");
-  app_.get_formatter()->label("Subcommands", "Commands");
   app_.footer(
       "Reads .obj .ply .off .stl .gltf .glb; writes .obj .ply .off .stl.\n"
       "Exit status: 0 done; 1 defects under --strict, or a check failed; 2 usage; 3 bad input;\n"
@@ -39,9 +37,10 @@ Program::Program() : app_("Half-edge mesh connectivity: inspect, repair, convert
 }
 
 CLI::App& Program::add_command(const std::string& name, const std::string& summary,
-                               const std::string& example, Body body) {
+                               const std::string& details, const std::string& example, Body body) {
   CLI::App* command = app_.add_subcommand(name, summary);
-  command->footer("Example: " + example);
+  command->group("Commands");
+  command->footer((details.empty() ? "" : details + "\n\n") + "Example: " + example);
   add_options(*command, options_);
   commands_.emplace_back(command, std::move(body));
   return *command;

@@ -22,9 +22,10 @@ class Program {
 
   Program();
 
-  /// A new command with the options of every command. `example` is shown at the end of its help.
+  /// A new command with the options of every command. `details` and the example are shown at the
+  /// end of its help; lines of `details` should fit 100 columns.
   CLI::App& add_command(const std::string& name, const std::string& summary,
-                        const std::string& example, Body body);
+                        const std::string& details, const std::string& example, Body body);
 
   /// Parses the arguments and runs the command they name. Throws nothing.
   [[nodiscard]] ExitStatus run(int argument_count, const char* const* arguments);

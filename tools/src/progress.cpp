@@ -28,7 +28,13 @@ void Progress::begin(int step_count) {
 void Progress::step(std::string label) {
   const std::scoped_lock lock(mutex_);
   ++steps_begun_;
+  part_ = 0;
   label_ = std::move(label);
+}
+
+void Progress::part(std::int64_t done, std::int64_t total) {
+  const std::scoped_lock lock(mutex_);
+  part_ = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
 }
 
 void Progress::finish() {
@@ -53,11 +59,12 @@ void Progress::draw_until_finished() {
 }
 
 std::string Progress::line() const {
-  const int done = std::clamp(steps_begun_ - 1, 0, step_count_);
-  const int filled = kBarWidth * done / step_count_;
+  const double done = std::max(steps_begun_ - 1, 0) + std::clamp(part_, 0.0, 1.0);
+  const double share = std::min(done / step_count_, 1.0);
+  const int filled = static_cast<int>(kBarWidth * share);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
   return fmt::format("\r\x1b[K[{:=<{}}{:<{}}] {:3}%  {:.1f} s  {}", "", filled, "",
-                     kBarWidth - filled, 100 * done / step_count_, elapsed.count(), label_);
+                     kBarWidth - filled, static_cast<int>(100 * share), elapsed.count(), label_);
 }
 
 }  // namespace hedgerow::tool

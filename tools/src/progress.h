@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -9,9 +10,9 @@
 namespace hedgerow::tool {
 
 /// A progress bar on standard error, drawn once the work has taken half a second and wiped at the
-/// end. Steps are counted, not timed: the bar says how many of the steps announced are done.
+/// end. Steps are counted, not timed: the bar says how many of those announced are done.
 ///
-/// Threads   Its own thread draws; `begin`, `step` and `finish` are called from one thread.
+/// Threads   Its own thread draws; the members are called from one thread.
 class Progress {
  public:
   explicit Progress(bool enabled) : enabled_(enabled) {}
@@ -23,6 +24,8 @@ class Progress {
   void begin(int step_count);
   /// The previous step is done and the one called `label` begins.
   void step(std::string label);
+  /// How far the step has come.
+  void part(std::int64_t done, std::int64_t total);
   /// Wipes the bar. Anything may be printed afterwards.
   void finish();
 
@@ -34,6 +37,7 @@ class Progress {
   bool finished_ = true;
   int step_count_ = 0;
   int steps_begun_ = 0;
+  double part_ = 0;
   std::string label_;
   std::chrono::steady_clock::time_point start_;
   mutable std::mutex mutex_;

@@ -40,6 +40,10 @@ Execution Run::execution() const {
   return threads_ == 1 ? Execution::serial() : Execution::in(arena_->arena);
 }
 
+void Run::in_arena(void (*function)(const void*), const void* user) {
+  arena_->arena.execute([=] { function(user); });
+}
+
 void Run::print(std::string_view text) {
   progress_.finish();
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();

@@ -28,6 +28,11 @@ class Run {
   [[nodiscard]] int threads() const noexcept { return threads_; }
   /// As many threads as --threads says.
   [[nodiscard]] Execution execution() const;
+  /// Calls `function` inside the arena of those threads.
+  template <class Function>
+  void in_arena(const Function& function) {
+    in_arena([](const void* user) { (*static_cast<const Function*>(user))(); }, &function);
+  }
   [[nodiscard]] Progress& progress() noexcept { return progress_; }
 
   /// True if text for people is wanted on standard output.
@@ -41,6 +46,7 @@ class Run {
 
  private:
   struct Threads;
+  void in_arena(void (*function)(const void*), const void* user);
 
   Options options_;
   int threads_;

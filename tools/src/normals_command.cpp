@@ -1,0 +1,124 @@
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "clock.h"
+#include "commands.h"
+#include "failure.h"
+#include "hedgerow/digest.h"
+#include "hedgerow/normals.h"
+#include "mesh_file.h"
+#include "table.h"
+
+namespace hedgerow::tool {
+namespace {
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::string weight = "area";
+  std::string method = "halfedge";
+};
+
+NormalWeight weight_named(std::string_view word) {
+  if (word == "uniform") return NormalWeight::uniform;
+  if (word == "angle") return NormalWeight::angle;
+  if (word == "max") return NormalWeight::max;
+  return NormalWeight::area;
+}
+
+struct Normals {
+  Buffer<float> xyz;
+  NormalStats stats;
+  double ms = 0;
+};
+
+Normals compute(const Run& run, const Arguments& arguments, const Connectivity& mesh,
+                const Soup& soup) {
+  NormalOptions options;
+  options.weight = weight_named(arguments.weight);
+  Normals normals;
+  normals.xyz = Buffer<float>(soup.xyz.size());
+  const NormalsOut out{normals.xyz.data(), soup.vertex_count()};
+  Workspace workspace;
+  const Clock clock;
+  const Result<NormalStats> stats =
+      arguments.method == "halfedge"
+          ? gather_vertex_normals(mesh, soup.positions(), out, options, run.execution(), workspace)
+          : scatter_vertex_normals(soup.face_list(), soup.positions(), out, options,
+                                   run.execution(), workspace);
+  normals.ms = clock.ms();
+  if (!stats) throw describe(stats.error(), arguments.input);
+  normals.stats = *stats;
+  return normals;
+}
+
+ExitStatus write_normals(Run& run, const Arguments& arguments) {
+  check_output_path(arguments.output, ".ply");
+  run.progress().begin(4);
+  run.progress().step("reading");
+  const MeshFile file = read_mesh(run, arguments.input);
+  run.progress().step("building");
+  const BuiltMesh built = build_mesh(run, file);
+  enforce_strict(run, arguments.input, built.output);
+  run.progress().step("computing normals");
+  const Soup soup = kept_soup(built.output, file.soup.xyz);
+  const Normals normals = compute(run, arguments, built.mesh(), soup);
+  run.progress().step("writing");
+  write_mesh(run, arguments.output, soup, normals.xyz);
+
+  const std::string hash = fmt::format("{:016x}", digest(std::as_bytes(normals.xyz.span())));
+  if (run.is_text()) {
+    run.print(fmt::format(
+        "{}: {} vertices, {} faces; {} weights by {} in {}\n"
+        "{} vertices without a direction (written as 0 0 0); digest of the normals {}\n",
+        arguments.output, grouped(soup.vertex_count()), grouped(soup.face_count()),
+        arguments.weight, arguments.method, time_text(normals.ms),
+        grouped(normals.stats.degenerate_count), hash));
+    return ExitStatus::done;
+  }
+  Json json;
+  json["input"] = arguments.input;
+  json["output"] = arguments.output;
+  json["weight"] = arguments.weight;
+  json["method"] = arguments.method;
+  json["vertices"] = soup.vertex_count();
+  json["faces"] = soup.face_count();
+  json["without_direction"] = normals.stats.degenerate_count;
+  json["digest"] = hash;
+  json["timings_ms"] = {{"read", file.read_ms}, {"build", built.build_ms}, {"normals", normals.ms}};
+  run.print_json(json);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_normals(Program& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      program.add_command("normals", "Write a PLY file with a unit normal at every vertex",
+                          "A vertex without a direction, such as one on no face, gets 0 0 0.",
+                          "hedgerow normals bunny.obj bunny.ply --weight angle",
+                          [arguments](Run& run) { return write_normals(run, *arguments); });
+  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
+  command
+      .add_option("OUT.ply", arguments->output,
+                  "Binary little-endian PLY to write: x y z nx ny nz and the kept faces")
+      ->required()
+      ->type_name("");
+  command.add_option("--weight", arguments->weight, "How much each face counts at its corner")
+      ->check(CLI::IsMember({"uniform", "area", "angle", "max"}))
+      ->type_name("")
+      ->capture_default_str();
+  command
+      .add_option("--method", arguments->method,
+                  "Walk the half-edges or add up the face list; the same bits")
+      ->check(CLI::IsMember({"halfedge", "facelist"}))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+}  // namespace hedgerow::tool
