@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+"""What each command of the program does. usage: cli_commands_test.py PROGRAM"""
+
+import json
+import math
+import os
+import pathlib
+import sys
+
+from support import cli
+from support.cli import ProgramTest
+
+INSPECT_FIELDS = [
+    "vertices", "faces", "triangles", "quads", "polygons", "degenerate_faces", "zero_area_faces",
+    "duplicate_faces", "halfedges", "edges", "boundary_edges", "nonmanifold_edges",
+    "inconsistent_edges", "isolated_vertices", "nonmanifold_vertices", "components", "euler",
+    "boundary_loops", "genus", "closed", "manifold", "oriented", "valence", "bytes", "timings_ms",
+    "defects", "defects_total", "digest"]
+
+
+class Inspect(ProgramTest):
+    def test_the_fields_are_those_of_the_contract_in_their_order(self):
+        report = self.json("inspect", self.file("a.obj", cli.TETRAHEDRON))
+        self.assertEqual(list(report), INSPECT_FIELDS)
+        self.assertEqual(list(report["valence"]), ["min", "max", "mean"])
+        self.assertEqual(list(report["bytes"]), ["connectivity", "peak"])
+        self.assertEqual(list(report["timings_ms"]), ["read", "build", "validate"])
+
+    def test_a_tetrahedron_is_a_sphere(self):
+        report = self.json("inspect", self.file("a.obj", cli.TETRAHEDRON))
+        expected = {"vertices": 4, "faces": 4, "triangles": 4, "quads": 0, "polygons": 0,
+                    "halfedges": 12, "edges": 6, "boundary_edges": 0, "components": 1, "euler": 2,
+                    "boundary_loops": 0, "genus": 0, "closed": True, "manifold": True,
+                    "oriented": True, "valence": {"min": 3, "max": 3, "mean": 3.0},
+                    "defects": [], "defects_total": 0}
+        self.assertEqual({field: report[field] for field in expected}, expected)
+
+    def test_what_is_not_defined_is_null(self):
+        report = self.json("inspect", self.file("a.obj", cli.THREE_ON_AN_EDGE))
+        self.assertEqual((report["nonmanifold_edges"], report["manifold"]), (1, False))
+        self.assertIsNone(report["genus"])
+        self.assertIsNone(report["boundary_loops"])
+        empty = self.json("inspect", self.file("b.obj", "v 0 0 0\n"))
+        self.assertEqual((empty["vertices"], empty["isolated_vertices"]), (1, 1))
+        self.assertEqual(empty["valence"], {"min": None, "max": None, "mean": None})
+
+    def test_degenerate_faces_are_dropped_and_counted(self):
+        text = cli.TETRAHEDRON + "f 1 1 2\nf 1 2\n"
+        report = self.json("inspect", self.file("a.obj", text))
+        self.assertEqual((report["faces"], report["degenerate_faces"]), (4, 2))
+        self.assertEqual([defect["kind"] for defect in report["defects"]],
+                         ["too-few-corners", "repeated-vertex"])
+        self.assertEqual([defect["face"] for defect in report["defects"]], [5, 4])
+
+    def test_at_most_100_defects_are_listed_and_all_are_counted(self):
+        text = cli.TETRAHEDRON + "v 0 0 0\n" * 150
+        report = self.json("inspect", self.file("a.obj", text))
+        self.assertEqual((len(report["defects"]), report["defects_total"]), (100, 150))
+        self.assertEqual(report["defects"][0], {"kind": "isolated-vertex", "vertex": 4})
+
+    def test_a_triangle_mesh_takes_at_most_27_bytes_a_triangle(self):
+        out = self.path("torus.ply")
+        self.done("generate", "torus", out, "--size", "10000")
+        report = self.json("inspect", out)
+        wide = 2 if "64 bits" in self.done("--version") else 1
+        self.assertLessEqual(report["bytes"]["connectivity"], 27 * wide * report["triangles"])
+        self.assertGreater(report["bytes"]["peak"], report["bytes"]["connectivity"])
+
+    def test_the_text_is_plain_and_names_every_count(self):
+        text = self.done("inspect", self.file("a.obj", cli.CUBE))
+        self.assertTrue(text.isascii())
+        for word in ("vertices", "quads", "genus", "digest", "valence"):
+            self.assertIn(word, text)
+
+
+class Normals(ProgramTest):
+    def test_both_methods_write_the_same_bytes(self):
+        meshes = [self.file("cube.obj", cli.CUBE),
+                  self.file("three.obj", cli.THREE_ON_AN_EDGE + "f 1 1 2\nv 5 5 5\n"),
+                  self.file("grid.obj", cli.shuffled_grid(30))]
+        for mesh in meshes:
+            for weight in ("uniform", "area", "angle", "max"):
+                files = []
+                for method in ("halfedge", "facelist"):
+                    for threads in (1, 3):
+                        out = self.path(f"{method}{threads}.ply")
+                        self.done("normals", mesh, out, "--weight", weight, "--method", method,
+                                  "--threads", threads)
+                        files.append(pathlib.Path(out).read_bytes())
+                self.assertEqual(len(set(files)), 1, f"{mesh} {weight}")
+
+    def test_the_file_has_six_floats_a_vertex_and_the_kept_faces(self):
+        mesh = self.file("a.obj", cli.CUBE + "f 1 1 2\n")
+        out = self.path("a.ply")
+        self.done("normals", mesh, out)
+        header, properties, vertices, faces, left = cli.read_normals_ply(out)
+        self.assertEqual(header[1], "format binary_little_endian 1.0")
+        self.assertEqual(properties[:6],
+                         [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz")])
+        self.assertEqual((len(vertices), len(faces), left), (8, 6, 0))
+        self.assertEqual(faces[0], (0, 3, 2, 1))
+        for x, y, z, *normal in vertices:
+            for found, corner in zip(normal, (x, y, z)):
+                self.assertAlmostEqual(found, (2 * corner - 1) / math.sqrt(3), places=6)
+
+    def test_max_weights_are_exact_on_a_sphere(self):
+        sphere = self.path("sphere.ply")
+        out = self.path("normals.ply")
+        self.done("generate", "icosphere", sphere, "--size", "1280")
+        self.done("normals", sphere, out, "--weight", "max")
+        vertices = cli.read_normals_ply(out)[2]
+        self.assertGreater(len(vertices), 100)
+        for x, y, z, *normal in vertices:
+            length = math.sqrt(x * x + y * y + z * z)
+            cosine = sum(a * b for a, b in zip(normal, (x, y, z))) / length
+            self.assertAlmostEqual(cosine, 1, places=5)
+
+
+class Convert(ProgramTest):
+    def test_a_mesh_survives_every_format_that_keeps_it(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        wanted = self.json("inspect", mesh)["digest"]
+        for name in ("b.ply", "c.off", "d.OBJ"):
+            out = self.path(name)
+            self.done("convert", mesh, out)
+            report = self.json("inspect", out)
+            self.assertEqual((report["quads"], report["digest"]), (6, wanted))
+            mesh = out
+
+    def test_stl_takes_polygons_apart_and_says_so(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        status, _, errors = cli.run("convert", mesh, self.path("a.stl"))
+        self.assertEqual(status, 0)
+        self.assertIn("warning", errors)
+        report = self.json("inspect", self.path("a.stl"))
+        self.assertEqual((report["triangles"], report["closed"]), (12, True))
+
+
+class Generate(ProgramTest):
+    def test_every_shape_is_what_its_name_says(self):
+        sphere = {"closed": True, "manifold": True, "oriented": True, "genus": 0}
+        disk = {"closed": False, "manifold": True, "oriented": True, "genus": 0,
+                "boundary_loops": 1}
+        shapes = {
+            "grid": disk, "terrain": disk, "fan": {"manifold": True, "oriented": True},
+            "strip": {"manifold": True, "oriented": True, "boundary_loops": 1},
+            "icosphere": sphere, "torus": {**sphere, "genus": 1},
+            "gyroid": {"manifold": True, "oriented": True},
+            "mobius": {"oriented": False, "manifold": True, "closed": False, "euler": 0},
+            "klein": {"oriented": False, "manifold": True, "closed": True, "euler": 0}}
+        for shape, facts in shapes.items():
+            with self.subTest(shape=shape):
+                out = self.path(shape + ".ply")
+                self.done("generate", shape, out, "--size", "2000")
+                report = self.json("inspect", out)
+                self.assertGreater(report["faces"], 0)
+                self.assertEqual({field: report[field] for field in facts}, facts)
+
+    def test_a_larger_size_makes_more_faces_and_the_same_size_the_same_bytes(self):
+        faces = [self.json("generate", "grid", self.path("a.ply"), "--size", size)["faces"]
+                 for size in (100, 400)]
+        self.assertLess(faces[0], faces[1])
+        first = (self.folder / "a.ply").read_bytes()
+        self.done("generate", "grid", self.path("b.ply"), "--size", "400", "--threads", "3")
+        self.assertEqual((self.folder / "b.ply").read_bytes(), first)
+
+
+class Reorder(ProgramTest):
+    def test_a_shuffled_grid_is_helped_and_stays_the_same_surface(self):
+        mesh = self.file("a.obj", cli.shuffled_grid(200))
+        before = self.json("inspect", mesh)
+        for order in ("hilbert", "morton", "bfs", "vertex-cache"):
+            with self.subTest(order=order):
+                out = self.path(order + ".ply")
+                found = self.json("reorder", mesh, out, "--order", order)
+                self.assertTrue(found["helped"])
+                self.assertLess(found["after"]["lines_per_face"],
+                                found["before"]["lines_per_face"])
+                after = self.json("inspect", out)
+                for field in INSPECT_FIELDS[:23]:
+                    self.assertEqual(after[field], before[field], field)
+                again = self.json("reorder", out, self.path("again.ply"), "--order", order)
+                self.assertAlmostEqual(again["before"]["lines_per_face"],
+                                       found["after"]["lines_per_face"])
+
+    def test_positions_go_with_their_vertices(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        self.done("reorder", mesh, self.path("b.ply"))
+        self.done("normals", self.path("b.ply"), self.path("n.ply"))
+        for x, y, z, *normal in cli.read_normals_ply(self.path("n.ply"))[2]:
+            for found, corner in zip(normal, (x, y, z)):
+                self.assertAlmostEqual(found, (2 * corner - 1) / math.sqrt(3), places=6)
+
+    def test_it_says_whether_it_helped(self):
+        out = self.done("reorder", self.file("a.obj", cli.CUBE), self.path("b.ply"))
+        self.assertRegex(out, r"it (helped|did not help): ")
+
+
+class Repair(ProgramTest):
+    BAD = cli.THREE_ON_AN_EDGE + "f 1 1 2\nv 9 9 9\n"
+
+    def test_the_result_is_manifold_and_the_maps_lead_back(self):
+        mesh = self.file("a.obj", self.BAD)
+        maps_path = self.path("maps.json")
+        report = self.json("repair", mesh, self.path("b.obj"), "--maps", maps_path)
+        after = self.json("inspect", self.path("b.obj"))
+        self.assertEqual((after["nonmanifold_edges"], after["nonmanifold_vertices"]), (0, 0))
+        self.assertEqual((after["faces"], report["faces_dropped"]), (3, 1))
+        self.assertEqual(after["vertices"], 6 + report["vertices_split"])
+        maps = json.loads(pathlib.Path(maps_path).read_text())
+        self.assertEqual(list(maps), ["vertices_new_to_old", "faces_new_to_old"])
+        self.assertEqual(maps["faces_new_to_old"], [0, 1, 2])
+        self.assertEqual(len(maps["vertices_new_to_old"]), after["vertices"])
+        positions = [[line for line in pathlib.Path(path).read_text().splitlines()
+                      if line.startswith("v ")] for path in (mesh, self.path("b.obj"))]
+        old = [tuple(map(float, line.split()[1:])) for line in positions[0]]
+        new = [tuple(map(float, line.split()[1:])) for line in positions[1]]
+        self.assertEqual(new, [old[v] for v in maps["vertices_new_to_old"]])
+
+    def test_policies_are_obeyed(self):
+        mesh = self.file("a.obj", self.BAD)
+        report = self.json("repair", mesh, self.path("b.obj"), "--policy", "isolated-vertex=skip",
+                           "--policy", "nonmanifold-edge=skip")
+        self.assertEqual(report["policies"]["nonmanifold-edge"], "skip")
+        self.assertEqual(report["after"]["defects"]["isolated-vertex"], 0)
+        self.assertEqual(report["after"]["defects"]["nonmanifold-edge"], 0)
+        self.assertEqual(report["vertices_split"], 0)
+        self.assertGreater(report["vertices_dropped"], 0)
+
+    def test_under_strict_nothing_is_written_while_defects_remain(self):
+        mesh = self.file("a.obj", self.BAD)
+        self.fails(1, "repair", mesh, self.path("b.obj"), "--strict")
+        self.assertFalse(os.path.exists(self.path("b.obj")))
+        self.done("repair", mesh, self.path("b.obj"), "--strict", "--policy",
+                  "isolated-vertex=skip")
+
+    def test_the_text_says_what_was_changed(self):
+        out = self.done("repair", self.file("a.obj", self.BAD), self.path("b.obj"))
+        for word in ("nonmanifold-edge", "split", "repeated-vertex", "dropped"):
+            self.assertIn(word, out)
+
+
+class Report(ProgramTest):
+    STAGES = {"read", "build", "validate", "face_normals", "vertex_normals_facelist",
+              "vertex_normals_halfedge", "one_ring", "boundary_loops", "components", "reorder"}
+    STAGE_FIELDS = {"name", "variant", "threads", "ms", "elements", "unit", "ns_per_element",
+                    "bytes", "gb_per_s", "share_of_bandwidth", "pointer_ms", "aos_ms", "checked"}
+
+    def check(self, report, threads):
+        self.assertEqual(list(report)[:4], ["version", "commit", "machine", "bandwidth_gb_s"])
+        self.assertEqual(set(report["machine"]), {"cpu", "cores", "caches", "memory", "os",
+                                                  "compiler", "flags", "simd"})
+        self.assertEqual(list(report["mesh"]), INSPECT_FIELDS)
+        for kind in ("read", "copy", "triad"):
+            self.assertGreater(report["bandwidth_gb_s"][kind], 0)
+        self.assertEqual({stage["name"] for stage in report["stages"]}, self.STAGES)
+        self.assertEqual(report["failed"], [])
+        for stage in report["stages"]:
+            self.assertLessEqual(self.STAGE_FIELDS, set(stage))
+            self.assertTrue(stage["checked"], stage["name"])
+            self.assertGreaterEqual(stage["runs"], 3)
+            self.assertIn(stage["threads"], (1, threads))
+            self.assertAlmostEqual(stage["ns_per_element"],
+                                   stage["ms"] * 1e6 / stage["elements"], places=3)
+            self.assertAlmostEqual(stage["gb_per_s"], stage["bytes"] / stage["ms"] / 1e6, places=3)
+        for name in ("build", "face_normals", "one_ring", "components"):
+            for stage in report["stages"]:
+                if stage["name"] == name:
+                    self.assertGreater(stage["pointer_ms"], 0)
+                    self.assertGreater(stage["aos_ms"], 0)
+        for part in ("bvh_build", "rays_primary", "report.html", "render.png"):
+            self.assertIn(part, report["absent"])
+        self.assertFalse({stage["name"] for stage in report["stages"]} & set(report["absent"]))
+
+    def test_every_stage_is_checked_and_measured(self):
+        mesh = self.file("a.obj", cli.shuffled_grid(40))
+        folder = self.path("report")
+        printed = self.json("report", mesh, "--out", folder, "--threads", "2")
+        self.check(printed, 2)
+        self.assertEqual(json.loads((self.folder / "report" / "report.json").read_text()), printed)
+        self.assertEqual(os.listdir(folder), ["report.json"])
+        weights = {stage["variant"] for stage in printed["stages"]
+                   if stage["name"] == "vertex_normals_halfedge"}
+        self.assertEqual(weights, {"uniform", "area", "angle", "max"})
+        walks = {stage["variant"] for stage in printed["stages"] if stage["name"] == "one_ring"}
+        self.assertEqual(walks, {"implicit", "explicit"})
+
+    def test_polygons_and_defects_are_reported_too(self):
+        for name, text in (("cube.obj", cli.CUBE), ("bad.obj", Repair.BAD)):
+            report = self.json("report", self.file(name, text), "--out", self.path("report"))
+            self.check(report, report["machine"]["cores"])
+
+    def test_the_text_says_what_is_absent_and_ends_in_a_verdict(self):
+        mesh = self.file("a.obj", cli.shuffled_grid(20))
+        text = self.done("report", mesh, "--out", self.path("report"), "--threads", "1")
+        self.assertTrue(text.isascii())
+        self.assertRegex(text, r"absent from this version: .*rays_primary.*render\.png")
+        self.assertRegex(text.splitlines()[-1], r"^verdict: \d+ of \d+ measurements checked")
+
+
+if __name__ == "__main__":
+    cli.main(sys.argv)
