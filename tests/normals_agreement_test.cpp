@@ -144,10 +144,10 @@ TEST(NormalAgreement, OnAFanOfManyTriangles) {
 }
 
 TEST(NormalAgreement, OnAPolygonOfManyCorners) {
-  constexpr Index kCorners = 70'000;
+  constexpr int kCorners = 70'000;
   std::vector<float> xyz;
   std::vector<Index> ring;
-  for (Index i = 0; i < kCorners; ++i) {
+  for (int i = 0; i < kCorners; ++i) {
     const double angle = 6.283185307179586 * i / kCorners;
     const double radius = 1 + 0.1 * (i % 2);
     xyz.insert(xyz.end(), {static_cast<float>(radius * std::cos(angle)),

@@ -52,7 +52,7 @@ struct NormalStats {
 
 /// Largest error of the corner angle that `NormalWeight::angle` uses, in radians, for edge vectors
 /// whose float cross and dot products are exact. Tested against long double.
-inline constexpr double kAngleErrorBound = 5e-7;
+inline constexpr double kAngleErrorBound = 3e-7;
 
 /// One unit normal per face.
 ///
