@@ -75,7 +75,7 @@ Buffer<Index> to_buffer(const std::vector<Index>& values) { return Buffer<Index>
 
 bool ReferenceMesh::is_all_triangles() const {
   for (std::size_t f = 0; f + 1 < first.size(); ++f) {
-    if (first[f + 1] - first[f] != 3) return false;
+    if (std::int64_t{first[f + 1]} - first[f] != 3) return false;
   }
   return true;
 }

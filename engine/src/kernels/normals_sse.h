@@ -13,7 +13,7 @@ namespace hedgerow::kernels {
   const float* p = points.positions[v];
   if (v + 1 < points.positions.count) [[likely]]
     return _mm_loadu_ps(p);
-  const __m128 xy = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p)));
+  const __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
   return _mm_movelh_ps(xy, _mm_load_ss(p + 2));
 }
 

@@ -56,8 +56,8 @@ void for_each_task(const Execution& execution, Index count, const Function& func
 }
 
 /// Folds `kernel(IndexRange) -> T` over [0, count) with `join`, which must be exactly associative
-/// and commutative (integer sums, min, max; not float sums): then the result is the same for every
-/// execution.
+/// and commutative (integer sums, min, max; not float sums) and leave `T{}` out: then the result is
+/// the same for every execution.
 template <class T, class Kernel, class Join>
 [[nodiscard]] T reduce(const Execution& execution, Index count, Index grain, const Kernel& kernel,
                        const Join& join) {
