@@ -21,3 +21,6 @@ run("${CMAKE_COMMAND}" -S "${SOURCE}/tests/consumer" -B "${WORK}/build" -G "${GE
   -D "CMAKE_CXX_COMPILER=${COMPILER}" -D "CMAKE_BUILD_TYPE=${BUILD_TYPE}" ${route})
 run("${CMAKE_COMMAND}" --build "${WORK}/build" --target consumer)
 run("${WORK}/build/consumer")
+if(EXISTS "${WORK}/build/consumer_io")
+  run("${WORK}/build/consumer_io")
+endif()

@@ -14,6 +14,7 @@ FOLDERS = ("engine", "bench", "tests", "tools")
 CPP = {".h", ".cpp"}
 TEXT = CPP | {".py", ".cmake", ".txt", ".sh", ".md", ".in", ""}
 MAX_LINES = 400
+MAX_COLUMNS = 100
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 
@@ -139,6 +140,9 @@ def check_file(path, text):
         yield MAX_LINES, "length", f"{text.count(chr(10))} lines, at most {MAX_LINES}"
     if suffix not in CPP:
         return
+    for number, line in enumerate(text.split("\n"), 1):
+        if len(line) > MAX_COLUMNS and 'R"' not in line:
+            yield number, "columns", f"{len(line)} columns, at most {MAX_COLUMNS}"
     code = strip(text)
     if suffix == ".h" and "#pragma once" not in code:
         yield 1, "pragma", "a header without #pragma once"
@@ -195,6 +199,7 @@ SEEDS = [
     ("tools/run", "# \u2013\n", "ascii"),
     ("tests/a.cpp", "//\n" * (MAX_LINES + 1), "length"),
     ("tests/a.h", "int a;\n", "pragma"),
+    ("engine/src/a.cpp", "// " + "x" * MAX_COLUMNS + "\n", "columns"),
 ]
 
 # Nothing here breaks a rule, though each line resembles something that does.
@@ -211,6 +216,7 @@ CLEAN = [
     ("engine/include/hedgerow/assert.h", "#pragma once\n#include <cassert>\n"),
     ("tests/a.cpp", '#include "kernels/k.h"\nint main() { abort(); }\n'),
     ("tools/src/a.cpp", "void f() { std::puts(s); }\n"),
+    ("tests/a.cpp", 'auto s = R"(' + "x" * MAX_COLUMNS + ')";\n'),
     ("tests/a.h", "#pragma once\n" + "//\n" * (MAX_LINES - 1)),
 ]
 

@@ -9,11 +9,16 @@
 #include <span>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hedgerow/boundary.h"
 #include "hedgerow/build.h"
+#include "hedgerow/normals.h"
+#include "hedgerow/query.h"
+#include "hedgerow/validate.h"
 
 namespace hedgerow {
 namespace {
@@ -164,6 +169,58 @@ TEST_P(Races, LeaveNoTraceInMaterialisedColumns) {
     ASSERT_EQ(a.next(h), b.next(h));
     ASSERT_EQ(a.face(h), b.face(h));
   }
+}
+
+TEST_P(Races, LeaveNoTraceInTheBoundaryForms) {
+  const auto built = build(faces_.list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  const auto serial = close_boundary(built->mesh, Execution::serial());
+  const auto parallel = close_boundary(built->mesh, plain_threads());
+  ASSERT_TRUE(serial && parallel);
+  expect_same(*parallel, *serial);
+  const auto opened = open_boundary(*parallel, plain_threads());
+  ASSERT_TRUE(opened);
+  expect_same(*opened, built->mesh);
+}
+
+TEST_P(Races, LeaveNoTraceInValidationAndCounts) {
+  const auto built = build(faces_.list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  EXPECT_TRUE(validate(built->mesh, plain_threads()).empty());
+  EXPECT_EQ(count_edges(built->mesh, plain_threads()),
+            count_edges(built->mesh, Execution::serial()));
+}
+
+TEST_P(Races, LeaveNoTraceInNormals) {
+  const auto built = build(faces_.list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  const Connectivity& mesh = built->mesh;
+  const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count());
+  std::vector<float> xyz(3 * vertex_count);
+  std::mt19937 random(3);
+  for (float& x : xyz) x = static_cast<float>(random() % 1000);
+  const Positions positions{xyz.data(), mesh.vertex_count()};
+  const auto face_count = static_cast<std::size_t>(mesh.face_count());
+
+  using Normals = std::array<std::vector<float>, 3>;
+  const auto compute = [&](const Execution& execution) {
+    Normals normals = {std::vector<float>(3 * face_count), std::vector<float>(3 * vertex_count),
+                       std::vector<float>(3 * vertex_count)};
+    Workspace workspace;
+    const NormalOptions options{.weight = NormalWeight::angle};
+    EXPECT_TRUE(
+        face_normals(mesh, positions, {normals[0].data(), mesh.face_count()}, options, execution));
+    EXPECT_TRUE(gather_vertex_normals(mesh, positions, {normals[1].data(), mesh.vertex_count()},
+                                      options, execution, workspace));
+    EXPECT_TRUE(scatter_vertex_normals(face_list(mesh), positions,
+                                       {normals[2].data(), mesh.vertex_count()}, options, execution,
+                                       workspace));
+    return normals;
+  };
+  const Normals serial = compute(Execution::serial());
+  EXPECT_EQ(compute(plain_threads()), serial);
+  EXPECT_EQ(compute(plain_threads().with_grain(64)), serial);
+  EXPECT_EQ(serial[1], serial[2]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Races, ::testing::Range(0, 4));

@@ -19,11 +19,10 @@ namespace hedgerow::baselines {
 /// Layout     Half-edge 40 bytes, vertex 40, face 32, and what the allocator adds to each.
 /// Boundary   Default form: `opposite` is null, no half-edge exists outside the faces.
 /// Pairs      As `hedgerow::build` with its default policies: two half-edges become opposite if
-/// they
-///            are the only ones on their edge and run in different directions.
+///            they are the only ones on their edge and run in different directions.
 /// Fans       As in the textbook, a vertex knows one outgoing half-edge, so at a vertex with
-/// several
-///            fans the walks see one fan only (they agree with the engine at every other vertex).
+///            several fans the walks see one fan only (they agree with the engine at every other
+///            vertex).
 /// Threads    Single-threaded; const members may run concurrently.
 class PointerHalfedgeMesh {
  public:

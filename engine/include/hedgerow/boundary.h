@@ -13,10 +13,9 @@ namespace hedgerow {
 ///            loops in the order of the smallest half-edge opposite to them, so that `next` is +1
 ///            but at the end of a loop.
 /// Fans       At a vertex with several open fans, `next` leads from each fan to itself: the
-/// boundary
-///            half-edge that enters fan i is followed by the one that leaves fan i. So each fan
-///            stays one rotation, and the `fans` table still lists the others. `outgoing` and each
-///            entry of `fans` name the boundary half-edge of their own fan, if it is open.
+///            boundary half-edge that enters fan i is followed by the one that leaves fan i. So
+///            each fan stays one rotation, and the `fans` table still lists the others. `outgoing`
+///            and each entry of `fans` name the boundary half-edge of their own fan, if it is open.
 /// Complexity O(H); allocates every column anew. The mesh passed in is not changed.
 /// Errors     already_closed, too_many_elements.
 [[nodiscard]] Result<Connectivity> close_boundary(const Connectivity& mesh,

@@ -63,8 +63,7 @@ struct BuildOutput {
 /// Complexity O(V + H), whatever the valences. Bytes: reads 4 H (twice when the input is local),
 ///            writes 4 H + 4 V; scratch 16 H more when it is not.
 /// Errors     What `check(FaceList)` finds, unsupported_policy, and the first defect whose policy
-/// is
-///            `fail`. Throws std::bad_alloc. On either, nothing has happened.
+///            is `fail`. Throws std::bad_alloc. On either, nothing has happened.
 /// Threads    Those of `execution`; same bytes for all of them.
 [[nodiscard]] Result<BuildOutput> build(const FaceList& faces, const BuildOptions& options,
                                         const Execution& execution);

@@ -10,8 +10,8 @@ namespace hedgerow {
 /// Read-only view of one column of a structure of arrays: plain `Index` storage, typed on access.
 ///
 /// Layout    `size()` values of type `Index`, contiguous. `Key` and `Value` are id types, so
-/// indexing
-///           with the wrong kind of id, or storing the result as the wrong kind, does not compile.
+///           indexing with the wrong kind of id, or storing the result as the wrong kind, does not
+///           compile.
 /// Threads   Any number of concurrent readers.
 /// Lifetime  Owns nothing; valid as long as the storage it was made from.
 template <class Key, class Value>

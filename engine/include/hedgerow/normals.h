@@ -88,11 +88,11 @@ inline constexpr double kAngleErrorBound = 3e-7;
 ///
 /// Race-free in parallel because a block of vertices is owned by one task, which visits the runs of
 /// faces that touch the block in ascending order and adds to its own vertices only; so the order of
-/// each sum is that of the serial loop. Faces on the edge between blocks are computed once for
-/// each. Complexity O(V + H) for faces in a local order. On shuffled input every block visits every
-/// face: O(threads * H), which two threads still gain from. Bytes a vertex on a closed triangle
-/// mesh: 48. Errors     null_pointer, bad_stride, count_mismatch, index_out_of_range,
-/// scratch_too_small.
+/// each sum is that of the serial loop. Faces on the edge between blocks are computed for each.
+/// Complexity O(V + H) for faces in a local order. On shuffled input every block visits every
+///            face: O(threads * H), which two threads still gain from.
+///            Bytes a vertex on a closed triangle mesh: 48.
+/// Errors     null_pointer, bad_stride, count_mismatch, index_out_of_range, scratch_too_small.
 [[nodiscard]] Result<NormalStats> scatter_vertex_normals(const FaceList& faces, Positions positions,
                                                          NormalsOut out,
                                                          const NormalOptions& options,

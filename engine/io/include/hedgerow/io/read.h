@@ -47,23 +47,20 @@ struct ReadOutput {
 /// OBJ   v, f (and fo); negative and forward references; \ at the end of a line continues it.
 ///       Texture coordinates, normals, colours, w, groups, lines and curves are skipped.
 /// PLY   ascii and both binary orders; x, y, z of any scalar type, vertex_index or vertex_indices
-/// of
-///       any integer type, elements and properties in any order; tristrips with -1 as restart where
-///       there is no list of faces (triangles of a strip that repeat a vertex are dropped). In
-///       ascii one element is one line.
+///       of any integer type, elements and properties in any order; tristrips with -1 as restart
+///       where there is no list of faces (triangles of a strip that repeat a vertex are dropped).
+///       In ascii one element is one line.
 /// OFF   OFF, COFF, NOFF, STOFF and their mixtures; one vertex or face a line. OFF BINARY with
-/// 32-bit
-///       values in the byte order, and with or without a colour count a face, whichever makes the
-///       records end with the file; big-endian with colour counts (the standard) if several do.
-///       4OFF and nOFF are refused by name.
+///       32-bit values in the byte order, and with or without a colour count a face, whichever
+///       makes the records end with the file; big-endian with colour counts (the standard) if
+///       several do. 4OFF and nOFF are refused by name.
 /// STL   Binary if the size is 84 + 50 times the count (up to 49 bytes behind are warned about),
 ///       or else if there is a byte 0 or no "solid" at the start; otherwise ascii. Vertices with
 ///       equal coordinates are welded (-0 equals 0), numbered by first occurrence; normals are
 ///       skipped.
 /// glTF  2.0, .gltf and .glb: all triangle, strip and fan primitives of all meshes, once each and
-/// one
-///       after the other; node transforms are not applied, nothing is welded. Points and lines are
-///       skipped. Buffers may be embedded or files in the directory of `path`.
+///       one after the other; node transforms are not applied, nothing is welded. Points and lines
+///       are skipped. Buffers may be embedded or files in the directory of `path`.
 ///
 /// Only regular files are read. Line ends may be LF, CR LF or CR; there is no limit on line length.
 /// Numbers do not depend on the locale. Memory is in proportion to the size of the file, whatever

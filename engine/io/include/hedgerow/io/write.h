@@ -41,8 +41,7 @@ struct WriteOutput {
 /// PLY       float x y z [nx ny nz]; faces as `list uchar int vertex_indices`, with an int count
 ///           where a face has more than 255 corners.
 /// STL       Polygons are cut into a fan from their first corner; unreferenced vertices are lost,
-/// as
-///           the format demands. Facet normals are computed; (0, 0, 0) for a face of no area.
+///           as the format demands. Facet normals are computed; (0, 0, 0) for a face of no area.
 ///
 /// Pre        Faces refer to vertices that exist; else bad_mesh, and nothing is written.
 /// Complexity O(bytes). Threads: any number of calls at once, for different targets.
