@@ -43,7 +43,10 @@ std::string chosen(const std::string& choices) {
 std::string system_name() {
   utsname names{};
   if (uname(&names) != 0) return "unknown";
-  return std::string(names.sysname) + " " + names.release + " " + names.machine;
+  const std::string release = names.release;
+  // What is behind the number tells who built the kernel, not which it is.
+  return std::string(names.sysname) + " " + release.substr(0, release.find('-')) + " " +
+         names.machine;
 }
 
 std::string compiler_name() {
