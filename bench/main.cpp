@@ -120,6 +120,7 @@ int main(int argc, char** argv) {
   hedgerow::bench::add_circulate(plan);
   hedgerow::bench::add_query(plan);
   hedgerow::bench::add_validate(plan);
+  hedgerow::bench::add_reorder(plan);
   const int error_count = hedgerow::bench::run_all(has_output_file);
   benchmark::Shutdown();
   return error_count == 0 ? 0 : 1;

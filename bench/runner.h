@@ -51,6 +51,7 @@ void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
 void add_normals(const Plan& plan);
 void add_query(const Plan& plan);
+void add_reorder(const Plan& plan);
 void add_validate(const Plan& plan);
 
 /// Runs what was registered and passed the filter; returns the number that reported an error.
