@@ -1,0 +1,296 @@
+// The same bits from every schedule, strategy, input format, index width and compiler.
+//
+// To renew the table after a change that is meant to change results, run
+//   HEDGEROW_PRINT_DIGESTS=1 hedgerow_tests --gtest_filter='*Golden.*OnOneThread*'
+// and paste its rows over kGolden. A row that changes without such a reason is a bug. The digests
+// are those of little-endian machines.
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hedgerow/build.h"
+#include "hedgerow/digest.h"
+#include "hedgerow/normals.h"
+#include "hedgerow/reorder.h"
+#include "hedgerow/shapes.h"
+#include "hedgerow/workspace.h"
+#include "support/threads.h"
+
+namespace hedgerow::test {
+namespace {
+
+constexpr std::int64_t kTriangles = 6'000;
+constexpr std::uint64_t kShuffleSeed = 1;
+
+struct Digests {
+  std::uint64_t positions = 0;
+  std::uint64_t mesh = 0;
+  std::uint64_t reordered = 0;       ///< all four methods
+  std::uint64_t face_normals = 0;    ///< by both polygon methods
+  std::uint64_t vertex_normals = 0;  ///< all four weights
+};
+
+struct Row {
+  shapes::Shape shape;
+  bool is_shuffled;
+  Digests expected;
+};
+
+using enum shapes::Shape;
+constexpr std::array kGolden = {
+    Row{grid,
+        false,
+        {0x309cc3d185becb2bU, 0x08b012a55a3bb1bcU, 0x0c7895a72c0311d7U, 0xdcaa8656d1f4ed0cU,
+         0x5409b2d44a032ac7U}},
+    Row{grid,
+        true,
+        {0x4f95f0a07d9e7568U, 0x56c611aa3e5d7436U, 0xce479e9b07bab20cU, 0x7c627a97d6132025U,
+         0x52706f825365e250U}},
+    Row{quad_grid,
+        false,
+        {0x309cc3d185becb2bU, 0x324e359a056ce6e6U, 0x6f651b617e2f4bdcU, 0xd69d5c251be6005cU,
+         0x29a9b4caa9d2f393U}},
+    Row{quad_grid,
+        true,
+        {0x4f95f0a07d9e7568U, 0x7103d5cce4ab86d8U, 0x95dd2297f5dab5fcU, 0x4bee337f0545554fU,
+         0x6befa9faa7005ef4U}},
+    Row{torus,
+        false,
+        {0x6032e268ce8927d1U, 0x520ab4d010f75cfaU, 0x17f4387c093435a6U, 0x0d007d5e81412c6bU,
+         0x9c64f7a105a269a3U}},
+    Row{torus,
+        true,
+        {0x07bf1948d3fb4b95U, 0xe2ed57de4d401012U, 0xbc600187154ec92eU, 0x741b72b415dca4f0U,
+         0x39b79299f895f37bU}},
+    Row{icosphere,
+        false,
+        {0xf0df18cad3278fceU, 0x2c8087c71abf2b09U, 0xb23424abb74b0332U, 0x4ae06c990aa1870aU,
+         0xdb7d2f3a7964e498U}},
+    Row{icosphere,
+        true,
+        {0x7b269c78d5420d0dU, 0xdc2ca89a4071664dU, 0xf4c285f84230eb27U, 0xc78c169bbe2f4d99U,
+         0x9f168d9602b5313eU}},
+    Row{fan,
+        false,
+        {0xadb85666c05c5eadU, 0xdcee06f5a54867b1U, 0xdeb4f7f85113ef20U, 0x767601ede0f56aa9U,
+         0xbfa7b81f89c566e2U}},
+    Row{fan,
+        true,
+        {0x768f77bdaaee5c20U, 0x691c09352576697cU, 0xef7f4e0d58a19076U, 0x5dfce34d2764749cU,
+         0xf53f38d882992566U}},
+    Row{strip,
+        false,
+        {0xecf742df07964f4aU, 0x2ce1fd93830df665U, 0xfe56a05e22bf8fbcU, 0xb5d600de70390819U,
+         0xc5f780fc470fe689U}},
+    Row{strip,
+        true,
+        {0x060080674ebb85d1U, 0xac61fb30811ebffbU, 0x7e3775ffe8c6d11bU, 0x1756dcaa344b6500U,
+         0x5905d49c5e1c9b05U}},
+    Row{mobius,
+        false,
+        {0x42eb5add2d44fd41U, 0xa855c4fc9b5ae90eU, 0x72cbe178b7c02220U, 0xddceb9266e95ba37U,
+         0xda9caa8dfe7c5459U}},
+    Row{mobius,
+        true,
+        {0xadb96f96e3bb4914U, 0x820633dcfbb955beU, 0x2ff3c508d9dd4350U, 0xa497b7436b077595U,
+         0xd5ec000bcfcc82bcU}},
+    Row{klein,
+        false,
+        {0x997e9b2921a787f3U, 0x7205197d7f3feefdU, 0x122c2e41a48d750eU, 0xe93dc96bf35027e8U,
+         0x6116d6036e141bf2U}},
+    Row{klein,
+        true,
+        {0x7886ed8f9d096f69U, 0x412bf1f9b7dbb297U, 0x0fa1fb31995c01feU, 0x6d61cf70da36248bU,
+         0xbfb5d74d2f0506b5U}},
+    Row{terrain,
+        false,
+        {0x84fb254bbe44fb13U, 0x08b012a55a3bb1bcU, 0xbfd2edfeb78be601U, 0x375de8c21b937b9eU,
+         0xafbabddb580d7485U}},
+    Row{terrain,
+        true,
+        {0x390d045d34ea749bU, 0x56c611aa3e5d7436U, 0x46d133fe51a0f8a6U, 0x0a04d12c8e9cfad9U,
+         0x566916065e5d9566U}},
+    Row{gyroid,
+        false,
+        {0xdc144598b3e6b011U, 0x42bbe42312d54b83U, 0xa693e60f5dfecb09U, 0x50988256f7ab69e2U,
+         0xc8cd0fe649d9685cU}},
+    Row{gyroid,
+        true,
+        {0xb7d477b29081df9bU, 0x6f27f2b97c5354e5U, 0x2a977d876d798a15U, 0x7e6cf6ee0968d9c2U,
+         0x725bf51ed72bd7f6U}},
+};
+
+constexpr std::array kMethods = {ReorderMethod::hilbert, ReorderMethod::morton,
+                                 ReorderMethod::breadth_first, ReorderMethod::vertex_cache};
+constexpr std::array kWeights = {NormalWeight::uniform, NormalWeight::area, NormalWeight::angle,
+                                 NormalWeight::max};
+
+std::uint64_t digest_of(const std::vector<std::uint64_t>& digests) {
+  return digest(std::as_bytes(std::span(digests)));
+}
+
+std::uint64_t digest_of(const std::vector<float>& values) {
+  return digest(std::as_bytes(std::span(values)));
+}
+
+Soup soup_of(const Row& row) {
+  Result<Soup> soup = shapes::generate(row.shape, kTriangles);
+  EXPECT_TRUE(soup);
+  return row.is_shuffled ? shapes::shuffled(*soup, kShuffleSeed) : std::move(*soup);
+}
+
+Connectivity built(const FaceList& faces, BuildStrategy strategy, const Execution& execution) {
+  BuildOptions options;
+  options.strategy = strategy;
+  Result<BuildOutput> output = build(faces, options, execution);
+  EXPECT_TRUE(output);
+  return std::move(output->mesh);
+}
+
+Connectivity built(const Soup& soup) {
+  return built(soup.face_list(), BuildStrategy::automatic, Execution::serial());
+}
+
+std::uint64_t reordered(const Connectivity& mesh, const Soup& soup, const Execution& execution) {
+  std::vector<std::uint64_t> digests;
+  for (const ReorderMethod method : kMethods) {
+    const auto output = reorder(mesh, soup.positions(), method, execution);
+    EXPECT_TRUE(output);
+    digests.push_back(digest(output->mesh, execution));
+  }
+  return digest_of(digests);
+}
+
+NormalsOut output_to(std::vector<float>& normals) {
+  return {normals.data(), static_cast<std::int64_t>(normals.size() / 3)};
+}
+
+std::uint64_t face_normals_of(const Connectivity& mesh, const Soup& soup,
+                              const Execution& execution) {
+  std::vector<std::uint64_t> digests;
+  for (const PolygonMethod method : {PolygonMethod::newell, PolygonMethod::wedge_mean}) {
+    std::vector<float> normals(3 * static_cast<std::size_t>(mesh.face_count()));
+    NormalOptions options;
+    options.polygon = method;
+    EXPECT_TRUE(face_normals(mesh, soup.positions(), output_to(normals), options, execution));
+    digests.push_back(digest_of(normals));
+  }
+  return digest_of(digests);
+}
+
+enum class VertexMethod : std::uint8_t { gather, scatter };
+
+std::uint64_t vertex_normals_of(const Connectivity& mesh, const Soup& soup, VertexMethod method,
+                                const Execution& execution) {
+  std::vector<std::uint64_t> digests;
+  Workspace workspace;
+  for (const NormalWeight weight : kWeights) {
+    std::vector<float> normals(3 * static_cast<std::size_t>(mesh.vertex_count()));
+    NormalOptions options;
+    options.weight = weight;
+    const NormalsOut out = output_to(normals);
+    EXPECT_TRUE(
+        method == VertexMethod::gather
+            ? gather_vertex_normals(mesh, soup.positions(), out, options, execution, workspace)
+            : scatter_vertex_normals(face_list(mesh), soup.positions(), out, options, execution,
+                                     workspace));
+    digests.push_back(digest_of(normals));
+  }
+  return digest_of(digests);
+}
+
+std::string row_name(const ::testing::TestParamInfo<Row>& instance) {
+  std::string word = name(instance.param.shape);
+  for (char& c : word) c = c == '-' ? '_' : c;
+  return word + (instance.param.is_shuffled ? "_shuffled" : "");
+}
+
+void print(const Row& row, const Digests& found) {
+  const auto hex = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  std::string word = name(row.shape);
+  for (char& c : word) c = c == '-' ? '_' : c;
+  std::printf("    Row{%s, %s, {0x%016llxU, 0x%016llxU, 0x%016llxU, 0x%016llxU, 0x%016llxU}},\n",
+              word.c_str(), row.is_shuffled ? "true" : "false", hex(found.positions),
+              hex(found.mesh), hex(found.reordered), hex(found.face_normals),
+              hex(found.vertex_normals));
+}
+
+class Golden : public ::testing::TestWithParam<Row> {};
+
+INSTANTIATE_TEST_SUITE_P(Determinism, Golden, ::testing::ValuesIn(kGolden), row_name);
+
+TEST_P(Golden, DigestsComeFromAPlainRunOnOneThread) {
+  const Soup soup = soup_of(GetParam());
+  const Connectivity mesh = built(soup);
+  const Execution serial = Execution::serial();
+  const Digests found{digest(std::as_bytes(soup.xyz.span())), digest(mesh, serial),
+                      reordered(mesh, soup, serial), face_normals_of(mesh, soup, serial),
+                      vertex_normals_of(mesh, soup, VertexMethod::gather, serial)};
+  if (std::getenv("HEDGEROW_PRINT_DIGESTS") != nullptr) print(GetParam(), found);
+  const Digests& expected = GetParam().expected;
+  EXPECT_EQ(found.positions, expected.positions);
+  EXPECT_EQ(found.mesh, expected.mesh);
+  EXPECT_EQ(found.reordered, expected.reordered);
+  EXPECT_EQ(found.face_normals, expected.face_normals);
+  EXPECT_EQ(found.vertex_normals, expected.vertex_normals);
+}
+
+TEST_P(Golden, DigestsComeFromEveryThreadCountGrainAndStrategy) {
+  const Soup soup = soup_of(GetParam());
+  const Digests& expected = GetParam().expected;
+  for (const int count : kThreadCounts) {
+    Threads threads(count);
+    for (const Index grain : {0, 100}) {
+      SCOPED_TRACE(std::to_string(count) + " threads, grain " + std::to_string(grain));
+      const Execution execution = threads.execution(grain);
+      for (const BuildStrategy strategy :
+           {BuildStrategy::automatic, BuildStrategy::window, BuildStrategy::partition}) {
+        const Connectivity mesh = built(soup.face_list(), strategy, execution);
+        EXPECT_EQ(digest(mesh, execution), expected.mesh);
+      }
+    }
+    const Execution execution = threads.execution(100);
+    const Connectivity mesh = built(soup);
+    EXPECT_EQ(reordered(mesh, soup, execution), expected.reordered);
+    EXPECT_EQ(face_normals_of(mesh, soup, execution), expected.face_normals);
+    for (const VertexMethod method : {VertexMethod::gather, VertexMethod::scatter}) {
+      EXPECT_EQ(vertex_normals_of(mesh, soup, method, execution), expected.vertex_normals);
+    }
+  }
+}
+
+template <class Integer>
+std::uint64_t built_from(const Soup& soup, BuildStrategy strategy, const Execution& execution) {
+  const std::vector<Integer> corners(soup.corners.begin(), soup.corners.end());
+  const std::span<const Integer> view(corners);
+  const FaceList faces =
+      soup.offsets.empty()
+          ? FaceList::triangles<Integer>(view, soup.vertex_count())
+          : FaceList::polygons<Integer>(view, soup.offsets.span(), soup.vertex_count());
+  return digest(built(faces, strategy, execution), execution);
+}
+
+TEST_P(Golden, DigestsComeFromEveryIndexFormat) {
+  const Soup soup = soup_of(GetParam());
+  ASSERT_LT(soup.vertex_count(), 65'536) << "too many for 16 bits";
+  const std::uint64_t expected = GetParam().expected.mesh;
+  Threads threads(3);
+  for (const Execution& execution : {Execution::serial(), threads.execution(100)}) {
+    for (const BuildStrategy strategy : {BuildStrategy::window, BuildStrategy::partition}) {
+      EXPECT_EQ(built_from<std::uint16_t>(soup, strategy, execution), expected);
+      EXPECT_EQ(built_from<std::int32_t>(soup, strategy, execution), expected);
+      EXPECT_EQ(built_from<std::uint32_t>(soup, strategy, execution), expected);
+      EXPECT_EQ(built_from<std::int64_t>(soup, strategy, execution), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hedgerow::test
