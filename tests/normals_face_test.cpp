@@ -97,7 +97,7 @@ TEST(FaceNormals, AreTheSameForEveryIndexFormatAndStride) {
                     Execution::serial()));
     }
   };
-  for (const std::size_t extra : {0, 1, 5}) {
+  for (const std::size_t extra : {0u, 1u, 5u}) {
     check_format(std::int32_t{}, extra);
     check_format(std::uint32_t{}, extra);
     check_format(std::uint16_t{}, extra);
@@ -149,7 +149,7 @@ TEST(Normals, TouchNoByteOutsideTheirArrays) {
   const Connectivity mesh = test::mesh_of(soup);
   const auto vertices = static_cast<std::size_t>(soup.vertex_count());
   const auto most = static_cast<std::size_t>(soup.face_count());
-  for (const std::size_t stride : {12, 16, 20, 24}) {
+  for (const std::size_t stride : {12u, 16u, 20u, 24u}) {
     for (const bool at_end : {true, false}) {
       const test::Guarded in((vertices - 1) * stride + 12, at_end);
       const test::Guarded faces_out((most - 1) * stride + 12, at_end);
