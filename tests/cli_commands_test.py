@@ -286,7 +286,11 @@ class Report(ProgramTest):
         self.assertEqual(walks, {"implicit", "explicit"})
 
     def test_polygons_and_defects_are_reported_too(self):
-        for name, text in (("cube.obj", cli.CUBE), ("bad.obj", Repair.BAD)):
+        # Quads with edges of no length, and a vertex between them.
+        collapsed = ("v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 1 0\nv 2 1 1\nv 1 0 0\n"
+                     "f 1 2 3 4\nf 3 2 5 6\nf 2 3 4 5\n")
+        for name, text in (("cube.obj", cli.CUBE), ("bad.obj", Repair.BAD),
+                           ("collapsed.obj", collapsed)):
             report = self.json("report", self.file(name, text), "--out", self.path("report"))
             self.check(report, report["machine"]["cores"])
 

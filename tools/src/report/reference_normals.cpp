@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -61,28 +62,42 @@ Sum area_vector(const Soup& soup, Index begin, Index end) {
   return sum;
 }
 
-/// What one corner adds to its vertex: N is the area vector of the face, a and b the edges.
+/// The angle from a to b round `unit`, and how far off a float may have it. Above pi where the
+/// corner is reflex; a corner at right angles to its face may be taken for either.
+Sum corner_angle(const Vector& a, const Vector& b, const Vector& unit, double condition) {
+  const Vector turn = cross(a, b);
+  const double angle = std::atan2(length(turn), dot(a, b));
+  const double reflex = 2 * std::acos(-1.0) - angle;
+  const double height = dot(turn, unit);
+  const double used = height < 0 ? reflex : angle;
+  Sum sum{used * unit, (used + 1) * condition};
+  const bool is_either = std::abs(height) <= kTolerance * condition * length(a) * length(b);
+  if (is_either) sum.magnitude += (reflex - angle) / kTolerance;
+  return sum;
+}
+
+/// What one corner adds to its vertex: N is the area vector of the face, a and b the edges. A face
+/// of no area with edges of some length has no direction, but float may find one: then its
+/// magnitude is without bound.
 Sum corner_part(const Sum& face, const Vector& a, const Vector& b, NormalWeight weight) {
   const double size = length(face.vector);
-  if (size == 0) return {};
   const double condition = face.magnitude / size;
-  const Vector unit = (1 / size) * face.vector;
+  const Vector unit = (size > 0 ? 1 / size : 0) * face.vector;
+  const double lengths = dot(a, a) * dot(b, b);
+  if (face.magnitude == 0 && weight != NormalWeight::max) return {};
   switch (weight) {
     case NormalWeight::uniform:
       return {unit, condition};
     case NormalWeight::area:
       return face;
-    case NormalWeight::angle: {
-      const Vector turn = cross(a, b);
-      double angle = std::atan2(length(turn), dot(a, b));
-      if (dot(turn, unit) < 0) angle = 2 * std::acos(-1.0) - angle;
-      return {angle * unit, angle * condition + condition};
-    }
-    case NormalWeight::max: {
-      const double lengths = dot(a, a) * dot(b, b);
+    case NormalWeight::angle:
+      return lengths == 0 ? Sum{} : corner_angle(a, b, unit, condition);
+    case NormalWeight::max:
       if (lengths == 0) return {};
-      return {(1 / lengths) * cross(a, b), 1 / std::sqrt(lengths)};
-    }
+      // The engine finds a x b of a triangle's corners at one of them: its rounding is in all
+      // three.
+      return {(1 / lengths) * cross(a, b),
+              std::max(face.magnitude / lengths, 1 / std::sqrt(lengths))};
   }
   return {};
 }
