@@ -106,6 +106,11 @@ TEST(Build, AcceptsNoFacesAndNoVertices) {
   EXPECT_EQ(as_vector(points->mesh.outgoing()), (Corners{-1, -1, -1}));
 }
 
+TEST(Build, IsNotNeededForAMeshWithoutElements) {
+  const Connectivity nothing;
+  EXPECT_EQ(nothing.visit([](const auto& mesh) { return mesh.halfedge_count(); }), 0);
+}
+
 TEST(Build, ListsTheSecondFanOfABowtie) {
   const auto output = build_triangles(kBowtie, 5);
   ASSERT_TRUE(output);

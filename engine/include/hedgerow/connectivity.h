@@ -76,7 +76,8 @@ struct ConnectivityColumns {
 /// Lifetime   Views are valid until a non-const member is called or the mesh is moved or destroyed.
 class Connectivity {
  public:
-  Connectivity() = default;
+  /// A mesh without elements.
+  Connectivity() noexcept { columns_.all_triangles = true; }
   /// \pre the lengths agree as `ConnectivityColumns` says; nothing else is checked, see `validate`.
   explicit Connectivity(ConnectivityColumns&& columns) noexcept;
 
