@@ -3,10 +3,10 @@
 #include <span>
 
 #include "build/survey.h"
-#include "kernels/corner_blocks.h"
+#include "kernels/corner_slots.h"
 
-/// The two ways in which a block of vertices gets its corners. Both answer the same calls, in
-/// ascending half-edge order: `count` adds to the corners of each vertex, `place` writes them.
+/// The two ways in which a block of vertices gets its corners, in ascending half-edge order. Both
+/// answer the same calls: `limit` says how many there are at the most, `place` adds them to slots.
 namespace hedgerow::detail {
 
 /// Scans the runs of faces that touch the block. Nothing is stored, but a run that touches several
@@ -14,15 +14,22 @@ namespace hedgerow::detail {
 class WindowSource {
  public:
   WindowSource(const kernels::FaceColumns& faces, const Survey& survey)
-      : faces_(faces), runs_(runs_of_blocks(survey)) {}
+      : faces_(faces), runs_of_faces_(survey.runs.span()), runs_(runs_of_blocks(survey)) {}
 
-  void count(Index b, kernels::VertexBlock block, Index* counts) const noexcept {
-    for_each_run(b, [&](IndexRange run) { kernels::count_corners(run, faces_, block, counts); });
+  [[nodiscard]] Index limit(Index b) const noexcept {
+    Index corners = 0;
+    for_each_run(b, [&](Index, IndexRange run) {
+      corners += faces_.begin(run.end) - faces_.begin(run.begin);
+    });
+    return corners;
   }
-  void place(Index b, kernels::VertexBlock block, Index* ends,
-             kernels::Corner* corners) const noexcept {
-    for_each_run(
-        b, [&](IndexRange run) { kernels::place_corners(run, faces_, block, ends, corners); });
+  void place(Index b, kernels::CornerSlots& slots) const noexcept {
+    for_each_run(b, [&](Index r, IndexRange run) {
+      const bool is_inside = runs_of_faces_[static_cast<std::size_t>(r)].count == 1;
+      kernels::place_corners(run, faces_,
+                             is_inside ? kernels::Faces::all_inside : kernels::Faces::some_outside,
+                             slots);
+    });
   }
 
  private:
@@ -30,13 +37,15 @@ class WindowSource {
   void for_each_run(Index b, const Visit& visit) const noexcept {
     const auto block = static_cast<std::size_t>(b);
     for (Index i = runs_.first[block]; i < runs_.first[block + 1]; ++i) {
-      const Index begin = runs_.runs[static_cast<std::size_t>(i)] * Survey::kRunLength;
+      const Index r = runs_.runs[static_cast<std::size_t>(i)];
+      const Index begin = r * Survey::kRunLength;
       const Index end = begin + Survey::kRunLength;
-      visit(IndexRange{begin, end < faces_.face_count ? end : faces_.face_count});
+      visit(r, IndexRange{begin, end < faces_.face_count ? end : faces_.face_count});
     }
   }
 
   const kernels::FaceColumns& faces_;
+  std::span<const kernels::RunBlocks> runs_of_faces_;
   BlockRuns runs_;
 };
 
@@ -47,12 +56,11 @@ class PartitionSource {
   PartitionSource(const kernels::FaceColumns& faces, const Blocks& blocks,
                   const Execution& execution);
 
-  void count(Index b, kernels::VertexBlock block, Index* counts) const noexcept {
-    kernels::count_loose(corners_of(b), block, counts);
+  [[nodiscard]] Index limit(Index b) const noexcept {
+    return static_cast<Index>(corners_of(b).size());
   }
-  void place(Index b, kernels::VertexBlock block, Index* ends,
-             kernels::Corner* corners) const noexcept {
-    kernels::place_loose(corners_of(b), block, ends, corners);
+  void place(Index b, kernels::CornerSlots& slots) const noexcept {
+    kernels::place_loose(corners_of(b), slots);
   }
 
  private:

@@ -16,22 +16,31 @@ namespace hedgerow::detail {
 
 namespace {
 
-// Above this many scans a face it is cheaper to partition all corners first; PERF.md, "build".
-constexpr std::int64_t kMaxScanPerMille = 3000;
+// Above this many scans a face it is cheaper to partition all corners first; PERF.md, "Decisions".
+constexpr std::int64_t kMaxScanPerMille = 4500;
 
 // What one worker needs for one block at a time; grows and stays.
-struct Slot {
-  std::vector<Index> ends;
-  Buffer<kernels::Corner> corners;
-  std::vector<Index> irregular;
+struct Scratch {
+  Buffer<kernels::CornerSlot> slots;
+  Buffer<Index> counts;
+  Buffer<Index> irregular;
+  Buffer<Index> large_ends;
+  Buffer<kernels::LooseCorner> overflow;
+  Buffer<kernels::Corner> large;
   std::vector<kernels::Spoke> spokes;
   std::vector<Index> links;
   std::vector<Defect> defects;
   std::vector<FanStart> fans;
 
-  void reserve_corners(Index count) {
-    const auto needed = static_cast<std::size_t>(count + kernels::kCornerPadding);
-    if (corners.size() < needed) corners = Buffer<kernels::Corner>(needed + needed / 4);
+  kernels::CornerSlots slots_for(kernels::VertexBlock block, Index corner_limit) {
+    grow(slots, block.size);
+    grow(counts, block.size);
+    grow(irregular, block.size);
+    grow(large_ends, block.size);
+    grow(overflow, corner_limit);
+    kernels::CornerSlots result{block, slots.data(), counts.data(), overflow.data()};
+    kernels::clear_slots(result);
+    return result;
   }
 
   [[nodiscard]] kernels::IrregularScratch scratch_for(std::size_t k) {
@@ -42,6 +51,12 @@ struct Slot {
     const std::span<Index> all(links);
     return {std::span(spokes).first(4 * k), all.first(k), all.subspan(k, k),
             all.subspan(2 * k, k),          defects,      fans};
+  }
+
+  template <class T>
+  static void grow(Buffer<T>& buffer, Index needed) {
+    const auto size = static_cast<std::size_t>(needed);
+    if (buffer.size() < size) buffer = Buffer<T>(size);
   }
 };
 
@@ -60,12 +75,12 @@ class Pairing {
   template <class Source>
   void run(const Source& source, const Blocks& blocks, const Execution& execution) {
     const auto slots = static_cast<std::size_t>(par::slot_count(execution, blocks.count));
-    std::vector<Slot> slot(slots);
+    std::vector<Scratch> scratch(slots);
     std::vector<BlockFindings> findings(static_cast<std::size_t>(blocks.count));
     par::for_each_task(execution, blocks.count, [&](Index b, Index s) {
       const Index begin = blocks.begin(b);
       const Index size = std::min(Index{1} << blocks.shift, faces_.vertex_count - begin);
-      link_block(source, b, {begin, size}, slot[static_cast<std::size_t>(s)],
+      link_block(source, b, {begin, size}, scratch[static_cast<std::size_t>(s)],
                  findings[static_cast<std::size_t>(b)]);
     });
     for (const BlockFindings& f : findings) {
@@ -77,56 +92,75 @@ class Pairing {
 
  private:
   template <class Source>
-  void link_block(const Source& source, Index b, kernels::VertexBlock block, Slot& slot,
+  void link_block(const Source& source, Index b, kernels::VertexBlock block, Scratch& scratch,
                   BlockFindings& findings) {
-    slot.ends.assign(static_cast<std::size_t>(block.size), 0);
-    slot.irregular.resize(static_cast<std::size_t>(block.size));
-    source.count(b, block, slot.ends.data());
-    const Index corner_count = kernels::exclusive_scan(slot.ends.data(), block.size);
-    slot.reserve_corners(corner_count);
-    source.place(b, block, slot.ends.data(), slot.corners.data());
-
-    findings.stats = link_regular(block, slot);
-    findings.stats.step_count += corner_count;
+    kernels::CornerSlots slots = scratch.slots_for(block, source.limit(b));
+    source.place(b, slots);
+    findings.stats = link_regular(slots, scratch);
+    if (slots.overflow_count > 0) {
+      Scratch::grow(scratch.large, kernels::count_large(slots));
+      kernels::gather_large(slots, scratch.large.data(), scratch.large_ends.data());
+      findings.stats.step_count += slots.overflow_count;
+    }
     for (Index i = 0; i < findings.stats.irregular_count; ++i) {
-      link_irregular(VertexId(slot.irregular[static_cast<std::size_t>(i)]), block, slot, findings);
+      link_other(scratch.irregular[static_cast<std::size_t>(i)], slots, scratch, findings);
     }
   }
 
-  kernels::LinkStats link_regular(kernels::VertexBlock block, Slot& slot) {
+  // With half-edges cut, the vertices at them are irregular in ways that only the general path
+  // knows: all go there.
+  kernels::LinkStats link_regular(const kernels::CornerSlots& slots, Scratch& scratch) {
     if (is_cut_ == nullptr) {
-      return kernels::link_vertices(block, slot.ends.data(), slot.corners.data(),
-                                    output_.opposite.data(), output_.outgoing.data(),
-                                    slot.irregular.data());
+      return kernels::link_vertices(slots, output_.opposite.data(), output_.outgoing.data(),
+                                    scratch.irregular.data());
     }
     kernels::LinkStats stats;
-    for (Index i = 0; i < block.size; ++i) {
-      slot.irregular[static_cast<std::size_t>(i)] = block.begin + i;
+    stats.irregular_count = slots.block.size;
+    for (Index i = 0; i < slots.block.size; ++i) {
+      stats.step_count += slots.count[i];
+      scratch.irregular[static_cast<std::size_t>(i)] = slots.block.begin + i;
     }
-    stats.irregular_count = block.size;
     return stats;
   }
 
-  void link_irregular(VertexId v, kernels::VertexBlock block, Slot& slot, BlockFindings& findings) {
-    const auto i = static_cast<std::size_t>(v.value - block.begin);
-    const Index begin = i == 0 ? 0 : slot.ends[i - 1];
-    const auto k = static_cast<std::size_t>(slot.ends[i] - begin);
-    Index& outgoing = output_.outgoing[static_cast<std::size_t>(v.value)];
+  // A vertex that is not one small closed fan, as almost all others are.
+  void link_other(Index v, const kernels::CornerSlots& slots, Scratch& scratch,
+                  BlockFindings& findings) {
+    const Index i = v - slots.block.begin;
+    const Index k = slots.count[i];
+    Index& outgoing = output_.outgoing[static_cast<std::size_t>(v)];
     if (k == 0) {
       outgoing = kInvalidIndex;
       findings.defects.push_back(
-          {DefectKind::isolated_vertex, FaceId(), HalfedgeId(), v, VertexId(), 0});
+          {DefectKind::isolated_vertex, FaceId(), HalfedgeId(), VertexId(v), VertexId(), 0});
       return;
     }
-    const std::span<const kernels::Corner> corners(slot.corners.data() + begin, k);
+    kernels::Corner in_slot[kernels::CornerSlot::kCapacity];
+    std::span<const kernels::Corner> corners(in_slot, static_cast<std::size_t>(k));
+    if (k <= kernels::CornerSlot::kCapacity) {
+      for (Index n = 0; n < k; ++n) in_slot[n] = slots.slot[i].corner(n);
+    } else {
+      const Index end = scratch.large_ends[static_cast<std::size_t>(i)];
+      corners = scratch.large.span().subspan(static_cast<std::size_t>(end - k),
+                                             static_cast<std::size_t>(k));
+    }
+    if (is_cut_ == nullptr && k <= kernels::kSmallValence &&
+        kernels::link_fan(corners, output_.opposite.data(), outgoing, findings.stats)) {
+      return;
+    }
+    link_irregular(VertexId(v), corners, outgoing, scratch, findings);
+  }
+
+  void link_irregular(VertexId v, std::span<const kernels::Corner> corners, Index& outgoing,
+                      Scratch& scratch, BlockFindings& findings) {
     const auto result =
         kernels::link_irregular(v, corners, faces_.is_triangles(), is_cut_, output_.opposite.data(),
-                                outgoing, slot.scratch_for(k));
+                                outgoing, scratch.scratch_for(corners.size()));
     findings.stats = findings.stats + result.stats;
-    findings.defects.insert(findings.defects.end(), slot.defects.begin(),
-                            slot.defects.begin() + result.defect_count);
-    findings.fans.insert(findings.fans.end(), slot.fans.begin() + 1,
-                         slot.fans.begin() + result.fan_count);
+    findings.defects.insert(findings.defects.end(), scratch.defects.begin(),
+                            scratch.defects.begin() + result.defect_count);
+    findings.fans.insert(findings.fans.end(), scratch.fans.begin() + 1,
+                         scratch.fans.begin() + result.fan_count);
   }
 
   const kernels::FaceColumns& faces_;

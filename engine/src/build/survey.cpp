@@ -9,10 +9,9 @@ namespace hedgerow::detail {
 
 namespace {
 
-// 48,000 corners of 16 bytes are 768 KB: most of a second-level cache. PERF.md, "build".
-constexpr std::int64_t kCornersPerBlock = 48'000;
+// 8,192 slots of 128 bytes are 1 MB, which fits a second-level cache of 2 MB; PERF.md, "Did not help".
+constexpr int kMinShift = 13;
 constexpr Index kMaxBlocks = 1 << 16;
-constexpr int kMinShift = 6;
 constexpr Index kGrain = 32;  // runs a task: 16,384 faces
 
 bool is_wide(const kernels::RunBlocks& run) noexcept {
@@ -32,14 +31,9 @@ void for_each_block(const kernels::RunBlocks& run, Index block_count, const Visi
 
 Blocks blocks_of(const kernels::FaceColumns& faces) noexcept {
   if (faces.vertex_count == 0) return {};
-  const auto vertices = static_cast<std::int64_t>(faces.vertex_count);
-  const std::int64_t valence = std::max<std::int64_t>(1, faces.halfedge_count() / vertices);
   int shift = kMinShift;
-  while ((std::int64_t{2} << shift) * valence <= kCornersPerBlock ||
-         (vertices - 1) >> shift >= kMaxBlocks) {
-    ++shift;
-  }
-  return {shift, static_cast<Index>(((vertices - 1) >> shift) + 1)};
+  while ((faces.vertex_count - 1) >> shift >= kMaxBlocks) ++shift;
+  return {shift, ((faces.vertex_count - 1) >> shift) + 1};
 }
 
 Survey survey(const kernels::FaceColumns& faces, const Execution& execution) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "kernels/corner_blocks.h"
+#include "kernels/corner_slots.h"
 
 namespace hedgerow::kernels {
 
@@ -12,7 +13,7 @@ struct LinkStats {
   std::int64_t boundary_count = 0;  ///< edges with a single half-edge, seen from its origin
   std::int64_t bad_edge_count = 0;  ///< edges with several half-edges that do not pair
   std::int64_t step_count = 0;      ///< corners visited plus comparisons made
-  Index irregular_count = 0;        ///< vertices left to `link_irregular`
+  Index irregular_count = 0;        ///< vertices left to others
 
   friend LinkStats operator+(const LinkStats& a, const LinkStats& b) noexcept {
     return {a.paired_count + b.paired_count, a.boundary_count + b.boundary_count,
@@ -21,30 +22,37 @@ struct LinkStats {
   }
 };
 
-/// Valence up to which a vertex is linked by comparing all its corners with all.
-inline constexpr Index kSmallValence = 16;
-/// Corners behind the last one that `link_vertices` may read (and ignore).
-inline constexpr Index kCornerPadding = kSmallValence;
-
-/// Pairs the half-edges round each vertex of `block` whose corners form one fan, and sets
-/// `outgoing`.
+/// Pairs the half-edges round each vertex of the block whose corners form one closed fan of 3 to
+/// CornerSlot::kCapacity corners, and sets `outgoing`.
 ///
 /// Corner i of a vertex is followed, in the rotation next[opposite[.]], by the corner j whose
 /// source is i's target; then opposite[i.halfedge] = j.incoming. If each target is the source of
-/// exactly one corner (but one, on the boundary) the match is a permutation, and one cycle or chain
-/// of it is one fan. Vertices where this fails, or with more corners than kSmallValence, are
-/// appended to `irregular` and not written; isolated ones too.
+/// exactly one corner and the rotation from the first corner meets all of them, they are one closed
+/// fan. All other vertices, isolated ones too, are appended to `irregular`, and neither their
+/// `outgoing` nor a half-edge that leaves them is written.
 ///
-/// \pre  The corners of block vertex i are corners[ends[i - 1] .. ends[i]), ascending by half-edge
-///       (ends[-1] stands for 0); kCornerPadding corners behind the last may be read.
 /// \pre  `irregular` holds block.size entries.
 /// Race-free: a vertex writes its own `outgoing` and the `opposite` of the half-edges that leave
 /// it.
-LinkStats link_vertices(VertexBlock block, const Index* ends, const Corner* corners,
-                        Index* opposite, Index* outgoing, Index* irregular) noexcept;
+LinkStats link_vertices(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                        Index* irregular) noexcept;
 
 /// The plain form that the fast one is tested against.
-LinkStats link_vertices_scalar(VertexBlock block, const Index* ends, const Corner* corners,
-                               Index* opposite, Index* outgoing, Index* irregular) noexcept;
+LinkStats link_vertices_scalar(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                               Index* irregular) noexcept;
+
+/// The fast one: all corners of a vertex at a time. False: not in this build or not on this
+/// machine, nothing was done.
+[[nodiscard]] bool link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                                      Index* irregular, LinkStats& stats) noexcept;
+
+/// Valence up to which a vertex is linked by comparing all its corners with all.
+inline constexpr Index kSmallValence = 16;
+
+/// The same for one vertex of 1 to kSmallValence corners in any fan, closed or open. False: not one
+/// fan, nothing was written. A closed fan of two corners is a face on both sides of another and is
+/// left as well: the general path looks for duplicate faces.
+bool link_fan(std::span<const Corner> corners, Index* opposite, Index& outgoing,
+              LinkStats& stats) noexcept;
 
 }  // namespace hedgerow::kernels
