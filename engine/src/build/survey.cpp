@@ -9,7 +9,7 @@ namespace hedgerow::detail {
 
 namespace {
 
-// 8,192 slots of 128 bytes are 1 MB, which fits a second-level cache of 2 MB; PERF.md, "Did not help".
+// 8,192 slots of 128 bytes are 1 MB, half of many second-level caches; PERF.md, "Did not help".
 constexpr int kMinShift = 13;
 constexpr Index kMaxBlocks = 1 << 16;
 constexpr Index kGrain = 32;  // runs a task: 16,384 faces

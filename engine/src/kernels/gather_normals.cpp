@@ -1,8 +1,11 @@
 #include "kernels/gather_normals.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "kernels/normals_weight.h"
+#include "kernels/simd_path.h"
 
 namespace hedgerow::kernels {
 
@@ -70,25 +73,63 @@ bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, H
 }
 
 template <NormalWeight W, class View>
+void gather_one(VertexId v, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+                const NormalWriter& writer, NormalStats& stats) noexcept {
+  Float3 sum{0, 0, 0};
+  for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
+    sum = add_corners<W>(sum, ids, count, mesh, input);
+  });
+  Float3 unit;
+  if (normalise(sum, unit) || sum_in_full_range<W>(v, mesh, input, spill, unit)) {
+    writer.write(v.value, unit);
+  } else {
+    writer.write_degenerate(v.value, stats);
+  }
+}
+
+template <NormalWeight W, class View>
 NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
                    const NormalWriter& writer) noexcept {
   NormalStats stats;
   for (Index i = range.begin; i < range.end; ++i) {
-    const VertexId v(i);
-    Float3 sum{0, 0, 0};
-    for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
-      sum = add_corners<W>(sum, ids, count, mesh, input);
-    });
-    Float3 unit;
-    if (normalise(sum, unit)) [[likely]] {
-      writer.write(i, unit);
-    } else if (sum_in_full_range<W>(v, mesh, input, spill, unit)) {
-      writer.write(i, unit);
-    } else {
-      writer.write_degenerate(i, stats);
-    }
+    gather_one<W>(VertexId(i), mesh, input, spill, writer, stats);
   }
   return stats;
+}
+
+// Bit i: vertex first + i has one fan at the most. `fan` is moved to the first entry not before it.
+unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexcept {
+  while (fan != fans.end() && fan->vertex.value < first) ++fan;
+  unsigned wanted = (1U << kGroupSize) - 1;
+  for (; fan != fans.end() && fan->vertex.value < first + kGroupSize; ++fan) {
+    wanted &= ~(1U << (fan->vertex.value - first));
+  }
+  return wanted;
+}
+
+template <NormalWeight W>
+NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const GatherInput& input,
+                          HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+  constexpr unsigned kAll = (1U << kGroupSize) - 1;
+  NormalStats stats;
+  auto fan = std::lower_bound(
+      mesh.fans.begin(), mesh.fans.end(), range.begin,
+      [](const FanStart& start, Index vertex) { return start.vertex.value < vertex; });
+  Index i = range.begin;
+  for (; i + kGroupSize <= range.end; i += kGroupSize) {
+    const unsigned wanted = with_one_fan(i, mesh.fans, fan);
+    unsigned left = gather_group_avx2<W>(i, wanted, mesh, input, writer) | (kAll & ~wanted);
+    for (; left != 0; left &= left - 1) {
+      gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, writer, stats);
+    }
+  }
+  return merge(stats, gather<W>({i, range.end}, mesh, input, spill, writer));
+}
+
+bool suits_avx2(const GatherInput& input) noexcept {
+  const Positions& p = input.points.positions;
+  const auto floats = static_cast<std::uint64_t>(p.count) * (p.stride_bytes / sizeof(float));
+  return simd_path() == SimdPath::avx2 && floats < (std::uint64_t{1} << 31);
 }
 
 }  // namespace
@@ -120,8 +161,11 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 
 NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
                            HalfedgeSet& spill, const NormalWriter& writer) noexcept {
-  return with_weight(input.weight,
-                     [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
+  const bool is_fast = suits_avx2(input);
+  return with_weight(input.weight, [&](auto w) {
+    return is_fast ? gather_groups<w()>(range, mesh, input, spill, writer)
+                   : gather<w()>(range, mesh, input, spill, writer);
+  });
 }
 
 NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const GatherInput& input,

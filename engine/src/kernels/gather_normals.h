@@ -40,4 +40,18 @@ template <NormalWeight W>
 [[nodiscard]] Float3 add_triangle_corners_sse(Float3 sum, Index* ids, Index count,
                                               const GatherInput& input) noexcept;
 
+/// Vertices handed to `gather_group_avx2` at a time.
+inline constexpr Index kGroupSize = 16;
+
+/// Writes the normals of those of the kGroupSize vertices from `first` on whose bit is set in
+/// `wanted`; returns the bits of those that it left to the plain form: vertices with many corners,
+/// with a corner outside the usual range, or without a direction. All of them where the build has
+/// no AVX2.
+/// \pre the processor has AVX2, and indices are 32 bits wide; see `simd_path`. Wanted vertices have
+///      one fan at the most. Positions lie within 2^31 floats.
+template <NormalWeight W>
+[[nodiscard]] unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
+                                         const GatherInput& input,
+                                         const NormalWriter& writer) noexcept;
+
 }  // namespace hedgerow::kernels

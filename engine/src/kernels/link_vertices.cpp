@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "kernels/simd_path.h"
+
 namespace hedgerow::kernels {
 
 namespace {
@@ -53,8 +55,9 @@ LinkStats link_vertices_scalar(const CornerSlots& slots, Index* opposite, Index*
 
 LinkStats link_vertices(const CornerSlots& slots, Index* opposite, Index* outgoing,
                         Index* irregular) noexcept {
-  LinkStats stats;
-  if (link_vertices_avx2(slots, opposite, outgoing, irregular, stats)) return stats;
+  if (simd_path() == SimdPath::avx2) {
+    return link_vertices_avx2(slots, opposite, outgoing, irregular);
+  }
   return link_vertices_scalar(slots, opposite, outgoing, irregular);
 }
 

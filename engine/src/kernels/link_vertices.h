@@ -41,10 +41,10 @@ LinkStats link_vertices(const CornerSlots& slots, Index* opposite, Index* outgoi
 LinkStats link_vertices_scalar(const CornerSlots& slots, Index* opposite, Index* outgoing,
                                Index* irregular) noexcept;
 
-/// The fast one: all corners of a vertex at a time. False: not in this build or not on this
-/// machine, nothing was done.
-[[nodiscard]] bool link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
-                                      Index* irregular, LinkStats& stats) noexcept;
+/// All corners of a vertex at a time; the same as the plain form where the build has no AVX2.
+/// \pre the processor has AVX2, and indices are 32 bits wide; see `simd_path`.
+LinkStats link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                             Index* irregular) noexcept;
 
 /// Valence up to which a vertex is linked by comparing all its corners with all.
 inline constexpr Index kSmallValence = 16;

@@ -4,24 +4,24 @@
 
 #include "kernels/link_vertices.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
 namespace hedgerow::kernels {
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__AVX2__)
 
 namespace {
 
 constexpr int kLanes = 8;
 
-[[gnu::target("avx2")]] inline __m256i load(const Index* p) noexcept {
+inline __m256i load(const Index* p) noexcept {
   return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
 }
 
 // Lane i: 16 + j if source j alone equals target i; below 16 if none does, 32 and above if several.
-[[gnu::target("avx2")]] inline __m256i followers(const CornerSlot& slot) noexcept {
+inline __m256i followers(const CornerSlot& slot) noexcept {
   const __m256i target = load(slot.target);
   __m256i sum = _mm256_setzero_si256();
   for (int j = 0; j < kLanes; ++j) {
@@ -34,7 +34,7 @@ constexpr int kLanes = 8;
 
 // Bit i: i + 1 steps of the rotation from lane 0 lead back to it. `follower` holds 16 + lane;
 // a permutation reads only the lane. Steps are composed: 1, then 2, then 4 at a time.
-[[gnu::target("avx2")]] inline unsigned returns(__m256i follower) noexcept {
+inline unsigned returns(__m256i follower) noexcept {
   const __m256i two = _mm256_permutevar8x32_epi32(follower, follower);
   const __m256i four = _mm256_permutevar8x32_epi32(two, two);
   __m256i at = _mm256_broadcastd_epi32(_mm256_castsi256_si128(follower));
@@ -45,8 +45,7 @@ constexpr int kLanes = 8;
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(home)));
 }
 
-[[gnu::target("avx2")]] inline bool link_closed(const CornerSlot& slot, Index k,
-                                                Index* opposite) noexcept {
+inline bool link_closed(const CornerSlot& slot, Index k, Index* opposite) noexcept {
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i used = _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(k)), lane);
   const __m256i follower = followers(slot);
@@ -69,8 +68,10 @@ constexpr int kLanes = 8;
   return true;
 }
 
-[[gnu::target("avx2")]] LinkStats link_all(const CornerSlots& slots, Index* opposite,
-                                           Index* outgoing, Index* irregular) noexcept {
+}  // namespace
+
+LinkStats link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                             Index* irregular) noexcept {
   LinkStats stats;
   for (Index i = 0; i < slots.block.size; ++i) {
     const Index k = slots.count[i];
@@ -86,20 +87,11 @@ constexpr int kLanes = 8;
   return stats;
 }
 
-}  // namespace
-
-bool link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
-                        Index* irregular, LinkStats& stats) noexcept {
-  if constexpr (sizeof(Index) != 4) return false;
-  if (__builtin_cpu_supports("avx2") == 0) return false;
-  stats = link_all(slots, opposite, outgoing, irregular);
-  return true;
-}
-
 #else
 
-bool link_vertices_avx2(const CornerSlots&, Index*, Index*, Index*, LinkStats&) noexcept {
-  return false;
+LinkStats link_vertices_avx2(const CornerSlots& slots, Index* opposite, Index* outgoing,
+                             Index* irregular) noexcept {
+  return link_vertices_scalar(slots, opposite, outgoing, irregular);
 }
 
 #endif

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
-#if defined(__SSE2__)
+#if defined(__AVX2__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
 #include <emmintrin.h>
 #endif
 
-/// One arithmetic for one float and for four: the formulas of the normals are templates over these,
+/// One arithmetic for one float, for four and for eight: the formulas of the normals are templates over these,
 /// so that SIMD and scalar code perform the same operations in the same order on each lane. Every
 /// operation used is rounded as IEEE 754 says, so the bits agree, too.
 namespace hedgerow::kernels {
@@ -60,6 +62,60 @@ struct Float4 {
 }
 [[nodiscard]] inline Float4 select(Mask4 condition, Float4 a, Float4 b) noexcept {
   return _mm_or_ps(_mm_and_ps(condition.bits, a.bits), _mm_andnot_ps(condition.bits, b.bits));
+}
+
+#endif
+
+// Only in sources that are compiled for AVX2.
+#if defined(__AVX2__)
+
+/// Eight comparisons.
+struct Mask8 {
+  __m256 bits;
+
+  friend Mask8 operator&(Mask8 a, Mask8 b) noexcept { return {_mm256_and_ps(a.bits, b.bits)}; }
+  /// Bit i: lane i.
+  [[nodiscard]] int lanes() const noexcept { return _mm256_movemask_ps(bits); }
+};
+
+struct Float8 {
+  __m256 bits;
+
+  Float8() = default;
+  Float8(__m256 value) noexcept : bits(value) {}  // NOLINT(google-explicit-constructor)
+  Float8(float value) noexcept
+      : bits(_mm256_set1_ps(value)) {}  // NOLINT(google-explicit-constructor)
+
+  friend Float8 operator+(Float8 a, Float8 b) noexcept { return _mm256_add_ps(a.bits, b.bits); }
+  friend Float8 operator-(Float8 a, Float8 b) noexcept { return _mm256_sub_ps(a.bits, b.bits); }
+  friend Float8 operator*(Float8 a, Float8 b) noexcept { return _mm256_mul_ps(a.bits, b.bits); }
+  friend Float8 operator/(Float8 a, Float8 b) noexcept { return _mm256_div_ps(a.bits, b.bits); }
+  friend Mask8 operator<(Float8 a, Float8 b) noexcept {
+    return {_mm256_cmp_ps(a.bits, b.bits, _CMP_LT_OS)};
+  }
+  friend Mask8 operator>(Float8 a, Float8 b) noexcept {
+    return {_mm256_cmp_ps(a.bits, b.bits, _CMP_GT_OS)};
+  }
+  friend Mask8 operator<=(Float8 a, Float8 b) noexcept {
+    return {_mm256_cmp_ps(a.bits, b.bits, _CMP_LE_OS)};
+  }
+  friend Mask8 operator>=(Float8 a, Float8 b) noexcept {
+    return {_mm256_cmp_ps(a.bits, b.bits, _CMP_GE_OS)};
+  }
+};
+
+[[nodiscard]] inline Float8 square_root(Float8 a) noexcept { return _mm256_sqrt_ps(a.bits); }
+[[nodiscard]] inline Float8 magnitude(Float8 a) noexcept {
+  return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.bits);
+}
+[[nodiscard]] inline Float8 smaller(Float8 a, Float8 b) noexcept {
+  return _mm256_min_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float8 larger(Float8 a, Float8 b) noexcept {
+  return _mm256_max_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float8 select(Mask8 condition, Float8 a, Float8 b) noexcept {
+  return _mm256_blendv_ps(b.bits, a.bits, condition.bits);
 }
 
 #endif

@@ -1,0 +1,192 @@
+// Eight vertices are eight lanes: they walk round their rings together, their lists of corners are
+// sorted by one network of minimum and maximum, and the first corners of all are added, then the
+// second ones, and so on. Two such groups walk at once, as each step waits for memory.
+
+#include "kernels/gather_normals.h"
+
+namespace hedgerow::kernels {
+
+#if defined(__AVX2__)
+
+namespace {
+
+constexpr int kLanes = 8;
+constexpr int kGroups = kGroupSize / kLanes;
+constexpr int kMostCorners = 8;
+
+// Lane i of row r: a corner of vertex i; kNone behind the last.
+struct Rings {
+  __m256i row[kMostCorners];
+  __m256i is_left;  // more corners than rows
+};
+const int kNone = 0x7fffffff;
+
+__m256i gather(const Index* from, __m256i at, __m256i where) noexcept {
+  return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), reinterpret_cast<const int*>(from), at,
+                                     where, 4);
+}
+
+// -1 where 3 divides the number whose product with the inverse of 3 this is: Granlund, Montgomery,
+// Division by Invariant Integers using Multiplication, 1994, section 9.
+__m256i is_multiple(__m256i product) noexcept {
+  const __m256i limit = _mm256_set1_epi32(0x55555555);
+  return _mm256_cmpeq_epi32(_mm256_min_epu32(product, limit), product);
+}
+__m256i times_inverse(__m256i h) noexcept {
+  return _mm256_mullo_epi32(h, _mm256_set1_epi32(static_cast<int>(0xaaaaaaab)));
+}
+
+__m256i next(__m256i h) noexcept {
+  const __m256i one = _mm256_set1_epi32(1);
+  const __m256i after = _mm256_add_epi32(h, one);
+  const __m256i wraps = is_multiple(times_inverse(after));
+  return _mm256_sub_epi32(after, _mm256_and_si256(wraps, _mm256_set1_epi32(3)));
+}
+
+void walk(const Index* outgoing, const TriangleView& mesh, Rings* rings) noexcept {
+  const __m256i none = _mm256_set1_epi32(kNone);
+  __m256i start[kGroups];
+  __m256i at[kGroups];
+  __m256i walks[kGroups];
+  for (int g = 0; g < kGroups; ++g) {
+    start[g] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(outgoing + g * kLanes));
+    at[g] = start[g];
+    walks[g] = _mm256_cmpgt_epi32(start[g], _mm256_set1_epi32(-1));
+  }
+  for (int r = 0; r < kMostCorners; ++r) {
+    for (int g = 0; g < kGroups; ++g) {
+      rings[g].row[r] = _mm256_blendv_epi8(none, at[g], walks[g]);
+      const __m256i opposite = gather(mesh.opposite.data(), at[g], walks[g]);
+      at[g] = next(opposite);
+      const __m256i has_opposite = _mm256_cmpgt_epi32(opposite, _mm256_set1_epi32(-1));
+      const __m256i is_back = _mm256_cmpeq_epi32(at[g], start[g]);
+      walks[g] = _mm256_and_si256(walks[g], _mm256_andnot_si256(is_back, has_opposite));
+    }
+  }
+  for (int g = 0; g < kGroups; ++g) rings[g].is_left = walks[g];
+}
+
+// Batcher's odd-even merge sort of eight, on all lanes; 19 exchanges.
+void sort_rows(__m256i* row) noexcept {
+  constexpr int kPairs[19][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6},
+                                 {5, 7}, {1, 2}, {5, 6}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
+                                 {2, 4}, {3, 5}, {1, 2}, {3, 4}, {5, 6}};
+  for (const auto& [a, b] : kPairs) {
+    const __m256i low = _mm256_min_epi32(row[a], row[b]);
+    row[b] = _mm256_max_epi32(row[a], row[b]);
+    row[a] = low;
+  }
+}
+
+Vec3<Float8> load_points(const Points& points, __m256i v, __m256i stride) noexcept {
+  const float* p = points.positions.data;
+  const __m256i at = _mm256_mullo_epi32(v, stride);
+  return {_mm256_i32gather_ps(p, at, 4), _mm256_i32gather_ps(p + 1, at, 4),
+          _mm256_i32gather_ps(p + 2, at, 4)};
+}
+
+// The sums of eight vertices. Bit i of the result: lane i is unusual.
+template <NormalWeight W>
+int add_rows(const Rings& rings, const GatherInput& input, Vec3<Float8>& sum) noexcept {
+  const __m256i stride =
+      _mm256_set1_epi32(static_cast<int>(input.points.positions.stride_bytes / sizeof(float)));
+  const __m256i none = _mm256_set1_epi32(kNone);
+  const __m256i all = _mm256_set1_epi32(-1);
+  int usual = 0xff;
+  sum = {Float8(0.0f), Float8(0.0f), Float8(0.0f)};
+  for (const __m256i& row : rings.row) {
+    const __m256i is_none = _mm256_cmpeq_epi32(row, none);
+    if (_mm256_movemask_epi8(is_none) == -1) break;
+    // Lanes without a corner repeat half-edge 0, which exists if any does.
+    const __m256i h = _mm256_andnot_si256(is_none, row);
+    const __m256i product = times_inverse(h);
+    const __m256i is_first = is_multiple(product);
+    const __m256i is_third =
+        is_multiple(_mm256_add_epi32(product, _mm256_set1_epi32(static_cast<int>(0xaaaaaaab))));
+    const __m256i corner =
+        _mm256_sub_epi32(_mm256_add_epi32(_mm256_set1_epi32(1), is_first), is_third);
+    const __m256i face = _mm256_sub_epi32(h, corner);
+    const Vec3<Float8> p0 = load_points(input.points, gather(input.origin, face, all), stride);
+    const Vec3<Float8> p1 = load_points(input.points, gather(input.origin + 1, face, all), stride);
+    const Vec3<Float8> p2 = load_points(input.points, gather(input.origin + 2, face, all), stride);
+    TriangleTerms<Float8> terms;
+    const Mask8 is_usual_here = triangle_terms<W>(p0, p1, p2, terms);
+    Float8 factor(0.0f);
+    if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
+      factor =
+          select(Mask8{_mm256_castsi256_ps(is_first)}, terms.factor[0],
+                 select(Mask8{_mm256_castsi256_ps(is_third)}, terms.factor[2], terms.factor[1]));
+    }
+    const Mask8 skip{_mm256_castsi256_ps(is_none)};
+    usual &= is_usual_here.lanes() | skip.lanes();
+    const Vec3<Float8> next_sum = sum + corner_term<W>(terms, factor);
+    sum = {select(skip, sum.x, next_sum.x), select(skip, sum.y, next_sum.y),
+           select(skip, sum.z, next_sum.z)};
+  }
+  return ~usual & 0xff;
+}
+
+// Writes the lanes that are in `wanted` and have a direction; returns those that have none.
+unsigned write_units(Index first, const Vec3<Float8>& sum, unsigned wanted,
+                     const NormalWriter& writer) noexcept {
+  const Float8 square = dot(sum, sum);
+  const unsigned good = wanted & static_cast<unsigned>(is_usual(square).lanes());
+  const Vec3<Float8> unit = sum * (Float8(1.0f) / square_root(square));
+  alignas(32) float x[kLanes];
+  alignas(32) float y[kLanes];
+  alignas(32) float z[kLanes];
+  _mm256_store_ps(x, unit.x.bits);
+  _mm256_store_ps(y, unit.y.bits);
+  _mm256_store_ps(z, unit.z.bits);
+  for (int i = 0; i < kLanes; ++i) {
+    if ((good >> i & 1) != 0) writer.write(first + i, {x[i], y[i], z[i]});
+  }
+  return wanted & ~good;
+}
+
+}  // namespace
+
+template <NormalWeight W>
+unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
+                           const GatherInput& input, const NormalWriter& writer) noexcept {
+  Rings rings[kGroups];
+  walk(mesh.outgoing.data() + first, mesh, rings);
+  unsigned left = 0;
+  for (int g = 0; g < kGroups; ++g) {
+    sort_rows(rings[g].row);
+    Vec3<Float8> sum;
+    const auto unusual = static_cast<unsigned>(add_rows<W>(rings[g], input, sum));
+    const auto large =
+        static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(rings[g].is_left)));
+    const unsigned here = wanted >> g * kLanes & 0xff;
+    const unsigned simple = here & ~(unusual | large);
+    const unsigned flat = write_units(first + g * kLanes, sum, simple, writer);
+    left |= ((here & ~simple) | flat) << g * kLanes;
+  }
+  return left;
+}
+
+#else
+
+template <NormalWeight W>
+unsigned gather_group_avx2(Index, unsigned wanted, const TriangleView&, const GatherInput&,
+                           const NormalWriter&) noexcept {
+  return wanted;
+}
+
+#endif
+
+template unsigned gather_group_avx2<NormalWeight::uniform>(Index, unsigned, const TriangleView&,
+                                                           const GatherInput&,
+                                                           const NormalWriter&) noexcept;
+template unsigned gather_group_avx2<NormalWeight::area>(Index, unsigned, const TriangleView&,
+                                                        const GatherInput&,
+                                                        const NormalWriter&) noexcept;
+template unsigned gather_group_avx2<NormalWeight::angle>(Index, unsigned, const TriangleView&,
+                                                         const GatherInput&,
+                                                         const NormalWriter&) noexcept;
+template unsigned gather_group_avx2<NormalWeight::max>(Index, unsigned, const TriangleView&,
+                                                       const GatherInput&,
+                                                       const NormalWriter&) noexcept;
+
+}  // namespace hedgerow::kernels
