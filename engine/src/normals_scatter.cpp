@@ -12,8 +12,12 @@ namespace {
 
 constexpr Index kRunLength = 1 << 11;  // faces
 constexpr Index kMaxBlocks = 256;      // of vertices, one bit each in the table of runs
-constexpr Index kBlockSize = 1 << 13;  // vertices: 128 KB of sums, which stay in the L2 cache
-constexpr Index kRunGrain = 16;        // runs a task
+// Vertices: 128 to 512 KB of sums, which stay in the L2 cache. The larger, the fewer runs of faces
+// straddle two blocks and are looked at twice.
+constexpr Index kSmallBlock = 1 << 13;
+constexpr Index kLargeBlock = 1 << 15;
+constexpr Index kBlocks = 64;    // wanted, between the two sizes
+constexpr Index kRunGrain = 16;  // runs a task
 constexpr std::size_t kCacheLine = 64;
 
 // How the vertices are cut into blocks and the faces into runs: a function of the counts alone, so
@@ -37,7 +41,8 @@ Plan plan_of(const FaceList& faces, const Execution& execution) noexcept {
   const auto vertices = static_cast<Index>(faces.vertex_count);
   const auto face_count = static_cast<Index>(faces.face_count);
   plan.run_count = face_count / kRunLength + (face_count % kRunLength != 0 ? 1 : 0);
-  const Index wanted = std::max({par::grain_of(execution, kBlockSize), vertices / kMaxBlocks + 1});
+  const Index size = std::clamp(vertices / kBlocks, kSmallBlock, kLargeBlock);
+  const Index wanted = std::max(par::grain_of(execution, size), vertices / kMaxBlocks + 1);
   while ((Index{1} << plan.block_shift) < wanted && plan.block_shift < 30) ++plan.block_shift;
   plan.block_count = vertices == 0 ? 0 : ((vertices - 1) >> plan.block_shift) + 1;
   plan.words_per_run = (static_cast<std::size_t>(plan.block_count) + 63) / 64;

@@ -18,4 +18,9 @@ namespace hedgerow::kernels {
                                                const Points& points,
                                                const NormalWriter& writer) noexcept;
 
+/// Eight at a time. \pre `suits_avx2(points)`
+[[nodiscard]] NormalStats triangle_normals_avx2(IndexRange range, const Index* corners,
+                                                const Points& points,
+                                                const NormalWriter& writer) noexcept;
+
 }  // namespace hedgerow::kernels

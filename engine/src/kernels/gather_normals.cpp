@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 
 #include "kernels/normals_weight.h"
-#include "kernels/simd_path.h"
 
 namespace hedgerow::kernels {
 
@@ -126,12 +124,6 @@ NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const Gath
   return merge(stats, gather<W>({i, range.end}, mesh, input, spill, writer));
 }
 
-bool suits_avx2(const GatherInput& input) noexcept {
-  const Positions& p = input.points.positions;
-  const auto floats = static_cast<std::uint64_t>(p.count) * (p.stride_bytes / sizeof(float));
-  return simd_path() == SimdPath::avx2 && floats < (std::uint64_t{1} << 31);
-}
-
 }  // namespace
 
 template <NormalWeight W>
@@ -161,7 +153,7 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 
 NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
                            HalfedgeSet& spill, const NormalWriter& writer) noexcept {
-  const bool is_fast = suits_avx2(input);
+  const bool is_fast = suits_avx2(input.points);
   return with_weight(input.weight, [&](auto w) {
     return is_fast ? gather_groups<w()>(range, mesh, input, spill, writer)
                    : gather<w()>(range, mesh, input, spill, writer);

@@ -3,6 +3,7 @@
 // second ones, and so on. Two such groups walk at once, as each step waits for memory.
 
 #include "kernels/gather_normals.h"
+#include "kernels/normals_avx2.h"
 
 namespace hedgerow::kernels {
 
@@ -49,7 +50,7 @@ void walk(const Index* outgoing, const TriangleView& mesh, Rings* rings) noexcep
   __m256i at[kGroups];
   __m256i walks[kGroups];
   for (int g = 0; g < kGroups; ++g) {
-    start[g] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(outgoing + g * kLanes));
+    start[g] = load_indices(outgoing + g * kLanes);
     at[g] = start[g];
     walks[g] = _mm256_cmpgt_epi32(start[g], _mm256_set1_epi32(-1));
   }
@@ -78,18 +79,10 @@ void sort_rows(__m256i* row) noexcept {
   }
 }
 
-Vec3<Float8> load_points(const Points& points, __m256i v, __m256i stride) noexcept {
-  const float* p = points.positions.data;
-  const __m256i at = _mm256_mullo_epi32(v, stride);
-  return {_mm256_i32gather_ps(p, at, 4), _mm256_i32gather_ps(p + 1, at, 4),
-          _mm256_i32gather_ps(p + 2, at, 4)};
-}
-
 // The sums of eight vertices. Bit i of the result: lane i is unusual.
 template <NormalWeight W>
 int add_rows(const Rings& rings, const GatherInput& input, Vec3<Float8>& sum) noexcept {
-  const __m256i stride =
-      _mm256_set1_epi32(static_cast<int>(input.points.positions.stride_bytes / sizeof(float)));
+  const __m256i stride = stride_of(input.points);
   const __m256i none = _mm256_set1_epi32(kNone);
   const __m256i all = _mm256_set1_epi32(-1);
   int usual = 0xff;

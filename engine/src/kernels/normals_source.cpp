@@ -27,13 +27,18 @@ CornerBounds corner_bounds(IndexRange corners, const FaceSource& faces) noexcept
     }
     return bounds;
   }
-  // Plain minima and maxima of one integer type, which the compiler turns into vectors.
-  Index smallest = faces.native[corners.begin];
-  Index largest = smallest;
-  const Index* end = faces.native + corners.end;
-  for (const Index* c = faces.native + corners.begin; c != end; ++c) {
-    smallest = *c < smallest ? *c : smallest;
-    largest = *c > largest ? *c : largest;
+  const Index* first = faces.native + corners.begin;
+  return simd_path() == SimdPath::avx2 ? native_bounds_avx2(first, corners.size())
+                                       : native_bounds_scalar(first, corners.size());
+}
+
+// Plain minima and maxima of one integer type, which the compiler turns into vectors.
+CornerBounds native_bounds_scalar(const Index* corners, Index count) noexcept {
+  Index smallest = corners[0];
+  Index largest = corners[0];
+  for (Index i = 0; i < count; ++i) {
+    smallest = corners[i] < smallest ? corners[i] : smallest;
+    largest = corners[i] > largest ? corners[i] : largest;
   }
   return {smallest, largest};
 }

@@ -6,6 +6,7 @@
 #include "hedgerow/face_list.h"
 #include "hedgerow/positions.h"
 #include "kernels/normals_math.h"
+#include "kernels/simd_path.h"
 
 /// What the kernels of the normals read and write, in the caller's formats.
 namespace hedgerow::kernels {
@@ -19,6 +20,13 @@ struct Points {
     return {p[0], p[1], p[2]};
   }
 };
+
+/// Whether the AVX2 forms may run: the processor has it, and indices times the stride fit 32 bits.
+[[nodiscard]] inline bool suits_avx2(const Points& points) noexcept {
+  const Positions& p = points.positions;
+  const auto floats = static_cast<std::uint64_t>(p.count) * (p.stride_bytes / sizeof(float));
+  return simd_path() == SimdPath::avx2 && floats < (std::uint64_t{1} << 31);
+}
 
 /// The caller's faces. A corner is a number in [0, corner count), also for triangles.
 struct FaceSource {
@@ -125,5 +133,8 @@ struct CornerBounds {
   std::int64_t largest;
 };
 [[nodiscard]] CornerBounds corner_bounds(IndexRange corners, const FaceSource& faces) noexcept;
+/// The same for `count` packed corners: the plain form, and one for processors with AVX2.
+[[nodiscard]] CornerBounds native_bounds_scalar(const Index* corners, Index count) noexcept;
+[[nodiscard]] CornerBounds native_bounds_avx2(const Index* corners, Index count) noexcept;
 
 }  // namespace hedgerow::kernels

@@ -74,8 +74,9 @@ void scatter_triangles_scalar(IndexRange range, const Index* corners, const Scat
 void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& block,
                    bool is_inside) noexcept {
   if (input.faces.is_triangles()) {
+    const auto kernel = suits_avx2(input.points) ? scatter_triangles_avx2 : scatter_triangles_sse;
     for_each_packed(range, input.faces, [&](IndexRange piece, const Index* corners) {
-      scatter_triangles_sse(piece, corners, input, block, is_inside);
+      kernel(piece, corners, input, block, is_inside);
     });
     return;
   }
@@ -84,6 +85,12 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 
 NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                         Index& again_count) noexcept {
+  return simd_path() == SimdPath::avx2 ? finish_sums_avx2(block, writer, again_count)
+                                       : finish_sums_scalar(block, writer, again_count);
+}
+
+NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer,
+                               Index& again_count) noexcept {
   NormalStats stats;
   for (Index i = 0; i < block.size; ++i) {
     VertexSum& sum = block.sums[i];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/normals_source.h"
 
 /// The linear face list, for one block of vertices: add the faces, finish, and where a sum left the
@@ -21,7 +23,10 @@ struct SumBlock {
   Index size = 0;
   VertexSum* sums = nullptr;
 
-  [[nodiscard]] bool holds(Index v) const noexcept { return v >= begin && v - begin < size; }
+  [[nodiscard]] bool holds(Index v) const noexcept {
+    return static_cast<std::make_unsigned_t<Index>>(v - begin) <
+           static_cast<std::make_unsigned_t<Index>>(size);
+  }
   [[nodiscard]] VertexSum& operator[](Index v) const noexcept { return sums[v - begin]; }
 };
 
@@ -42,6 +47,12 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 [[nodiscard]] NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                                       Index& again_count) noexcept;
 
+/// The plain form, and eight sums at a time (\pre the processor has AVX2).
+[[nodiscard]] NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer,
+                                             Index& again_count) noexcept;
+[[nodiscard]] NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
+                                           Index& again_count) noexcept;
+
 /// For marked sums: the largest exponent of a term; then the sum of the terms scaled by it; then
 /// the normals.
 void scatter_exponents(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept;
@@ -54,6 +65,10 @@ void scatter_triangles_scalar(IndexRange range, const Index* corners, const Scat
 /// Four triangles at a time where the processor can; else the same as the plain form.
 void scatter_triangles_sse(IndexRange range, const Index* corners, const ScatterInput& input,
                            const SumBlock& block, bool is_inside) noexcept;
+
+/// Eight at a time. \pre `suits_avx2(input.points)`
+void scatter_triangles_avx2(IndexRange range, const Index* corners, const ScatterInput& input,
+                            const SumBlock& block, bool is_inside) noexcept;
 
 /// Which blocks of 2^shift vertices a run of faces touches, as a row of bits.
 void mark_blocks(IndexRange corners, const FaceSource& faces, int shift,
