@@ -97,6 +97,12 @@ TEST(Query, CountsFacesOfExactlyZeroArea) {
   const auto few = count_zero_area_faces(mesh, {xyz.data(), 3}, Execution::serial());
   ASSERT_FALSE(few);
   EXPECT_EQ(few.error().code, ErrorCode::count_mismatch);
+  const auto uneven = count_zero_area_faces(mesh, {xyz.data(), 4, 14}, Execution::serial());
+  ASSERT_FALSE(uneven);
+  EXPECT_EQ(uneven.error().code, ErrorCode::bad_stride);
+  const auto absent = count_zero_area_faces(mesh, {nullptr, 4}, Execution::serial());
+  ASSERT_FALSE(absent);
+  EXPECT_EQ(absent.error().code, ErrorCode::null_pointer);
 }
 
 TEST(Query, CountsDegenerateFacesOnlyWhereTheyWereDropped) {

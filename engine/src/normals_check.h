@@ -1,25 +1,11 @@
 #pragma once
 
+#include "float3_check.h"
 #include "hedgerow/normals.h"
 #include "kernels/normals_source.h"
 
 /// What every operation on normals checks at the door.
 namespace hedgerow::detail {
-
-/// Addresses, strides and counts of one array of float3 with at least `needed` elements.
-template <class Array>
-[[nodiscard]] Result<void> check_float3(const Array& array, std::int64_t needed) noexcept {
-  constexpr auto kLeast = static_cast<std::int64_t>(3 * sizeof(float));
-  if (array.count < needed) {
-    return fail({ErrorCode::count_mismatch, kInvalidIndex, array.count, needed});
-  }
-  if (array.stride_bytes < 3 * sizeof(float) || array.stride_bytes % sizeof(float) != 0) {
-    return fail({ErrorCode::bad_stride, kInvalidIndex,
-                 static_cast<std::int64_t>(array.stride_bytes), kLeast});
-  }
-  if (needed > 0 && array.data == nullptr) return fail({ErrorCode::null_pointer});
-  return {};
-}
 
 [[nodiscard]] inline Result<void> check_arrays(const Positions& positions,
                                                std::int64_t vertex_count, const NormalsOut& out,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "build/duplicate_faces.h"
+#include "float3_check.h"
 #include "parallel/parallel.h"
 #include "query/edges.h"
 
@@ -270,16 +271,7 @@ std::int64_t count_degenerate_faces(const BuildStats& stats, const Policies& pol
 
 Result<std::int64_t> count_zero_area_faces(const Connectivity& mesh, Positions positions,
                                            const Execution& execution) {
-  if (positions.stride_bytes < 3 * sizeof(float) || positions.stride_bytes % sizeof(float) != 0) {
-    return fail({ErrorCode::bad_stride, kInvalidIndex,
-                 static_cast<std::int64_t>(positions.stride_bytes), 3 * sizeof(float)});
-  }
-  if (positions.count < mesh.vertex_count()) {
-    return fail({ErrorCode::count_mismatch, kInvalidIndex, positions.count, mesh.vertex_count()});
-  }
-  if (positions.data == nullptr && mesh.vertex_count() > 0) {
-    return fail({ErrorCode::null_pointer});
-  }
+  if (auto ok = detail::check_float3(positions, mesh.vertex_count()); !ok) return fail(ok.error());
   return mesh.visit([&](const auto& view) {
     return par::reduce<std::int64_t>(
         execution, view.face_count(), kGrain,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "float3_check.h"
 #include "kernels/gather_reordered.h"
 #include "kernels/materialise.h"
 #include "parallel/parallel.h"
@@ -22,19 +23,6 @@ constexpr Index kGrain = 1 << 14;  // elements a task
 
 bool is_curve(ReorderMethod method) {
   return method == ReorderMethod::hilbert || method == ReorderMethod::morton;
-}
-
-Result<void> check_positions(const Positions& positions, Index vertex_count) {
-  constexpr auto kLeast = static_cast<std::int64_t>(3 * sizeof(float));
-  const auto stride = static_cast<std::int64_t>(positions.stride_bytes);
-  if (positions.count < vertex_count) {
-    return fail({ErrorCode::count_mismatch, kInvalidIndex, positions.count, vertex_count});
-  }
-  if (stride < kLeast || positions.stride_bytes % sizeof(float) != 0) {
-    return fail({ErrorCode::bad_stride, kInvalidIndex, stride, kLeast});
-  }
-  if (vertex_count > 0 && positions.data == nullptr) return fail({ErrorCode::null_pointer});
-  return {};
 }
 
 Buffer<Index> inverse_of(const Buffer<Index>& permutation, const Execution& execution) {
@@ -215,7 +203,9 @@ Result<ReorderOutput> reorder(const Connectivity& mesh, Positions positions, Reo
                               const Execution& execution) {
   if (mesh.form() != Form::open) return fail({ErrorCode::already_closed});
   if (is_curve(method)) {
-    if (auto ok = check_positions(positions, mesh.vertex_count()); !ok) return fail(ok.error());
+    if (auto ok = detail::check_float3(positions, mesh.vertex_count()); !ok) {
+      return fail(ok.error());
+    }
   }
   ReorderOutput output;
   output.before = locality(mesh);
