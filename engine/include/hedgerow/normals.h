@@ -15,6 +15,11 @@ namespace hedgerow {
 /// How much each corner adds to its vertex. N is the area vector of the face (for a triangle the
 /// cross product of two edges, length twice the area), n its unit vector, a and b the two edge
 /// vectors at the corner.
+///
+/// Rounding   The area vector of a triangle is computed at its first corner, which turns it by some
+///            2^-24 / sin(angle there): 2e-5 on a needle with a tip of 0.003. `max`, which gives
+///            needles the most weight, computes it at the largest angle, where the sine is largest,
+///            too. Tested on fans of needles.
 enum class NormalWeight : std::uint8_t {
   uniform,  ///< n
   area,     ///< N
@@ -30,7 +35,8 @@ enum class DegeneratePolicy : std::uint8_t {
   axis,  ///< (0, 0, 1)
 };
 
-/// The area vector of a polygon with more than three corners.
+/// The area vector of a polygon with more than three corners. M. Newell's sum: Sutherland, Sproull
+/// and Schumacker, "A characterization of ten hidden-surface algorithms", 1974.
 enum class PolygonMethod : std::uint8_t {
   newell,      ///< Newell's sum, taken about the first corner so that far-away meshes keep digits
   wedge_mean,  ///< the mean of the cross products of the two edge vectors at each corner
@@ -54,8 +60,11 @@ struct NormalStats {
 /// whose float cross and dot products are exact. Tested against long double.
 inline constexpr double kAngleErrorBound = 3e-7;
 
-/// One unit normal per face.
+/// One unit normal per face, in the direction from which its corners run counter-clockwise.
 ///
+/// Layout     Lengths are those of the positions; normals are plain floats of length 1, within
+///            5 * 2^-24. Coordinates may have any finite size: sums that would overflow or lose
+///            digits in float are made again in double.
 /// Pre        positions.count >= vertex count; out.count >= face count; out overlaps no input.
 /// Complexity O(H). Bytes a triangle: reads 12 + its share of 12 a vertex, writes 12.
 /// Errors     null_pointer, bad_stride, count_mismatch; index_out_of_range from the face list.
@@ -72,13 +81,17 @@ inline constexpr double kAngleErrorBound = 3e-7;
 /// Each vertex reads its neighbours and writes itself, so any partition of the vertices is
 /// race-free. The sum runs over its corners in ascending half-edge id, in float: the same bits as
 /// `scatter_vertex_normals`. Polygons read face vectors that a first pass leaves in the workspace.
+///
+/// Pre        positions.count and out.count >= vertex count; out overlaps no input; a sound mesh.
 /// Complexity O(V + H). Bytes a vertex on a closed triangle mesh: 76.
 /// Errors     null_pointer, bad_stride, count_mismatch, scratch_too_small.
+/// Threads    Those of `execution`; same bits for all of them, scalar or SIMD.
 [[nodiscard]] Result<NormalStats> gather_vertex_normals(const Connectivity& mesh,
                                                         Positions positions, NormalsOut out,
                                                         const NormalOptions& options,
                                                         const Execution& execution,
                                                         Workspace& workspace);
+/// What the call above with these arguments asks of a fixed workspace.
 [[nodiscard]] std::size_t gather_vertex_normals_scratch_bytes(const Connectivity& mesh,
                                                               const NormalOptions& options,
                                                               const Execution& execution);
@@ -86,6 +99,7 @@ inline constexpr double kAngleErrorBound = 3e-7;
 /// One unit normal per vertex from the face list alone: each face adds to its corners, then each
 /// sum is normalised.
 ///
+/// Pre        positions.count and out.count >= faces.vertex_count; out overlaps no input.
 /// Race-free in parallel because a block of vertices is owned by one task, which visits the runs of
 /// faces that touch the block in ascending order and adds to its own vertices only; so the order of
 /// each sum is that of the serial loop. Faces on the edge between blocks are computed for each.
@@ -93,11 +107,13 @@ inline constexpr double kAngleErrorBound = 3e-7;
 ///            face: O(threads * H), which two threads still gain from.
 ///            Bytes a vertex on a closed triangle mesh: 48.
 /// Errors     null_pointer, bad_stride, count_mismatch, index_out_of_range, scratch_too_small.
+/// Threads    Those of `execution`; same bits for all of them, scalar or SIMD.
 [[nodiscard]] Result<NormalStats> scatter_vertex_normals(const FaceList& faces, Positions positions,
                                                          NormalsOut out,
                                                          const NormalOptions& options,
                                                          const Execution& execution,
                                                          Workspace& workspace);
+/// What the call above with these arguments asks of a fixed workspace.
 [[nodiscard]] std::size_t scatter_vertex_normals_scratch_bytes(const FaceList& faces,
                                                                const NormalOptions& options,
                                                                const Execution& execution);

@@ -64,6 +64,11 @@ template <class T>
   return select(dot_product < T(0.0f), T(kPi) - acute, acute);
 }
 
+template <class Condition, class T>
+[[nodiscard]] inline Vec3<T> select(Condition condition, Vec3<T> a, Vec3<T> b) noexcept {
+  return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
+}
+
 /// What the three corners of a triangle have in common, and what tells them apart.
 template <class T>
 struct TriangleTerms {
@@ -104,6 +109,12 @@ template <NormalWeight W, class T>
     terms.factor[0] = uu * vv;
     terms.factor[1] = uu * ww;
     terms.factor[2] = vv * ww;
+    // From the two shorter edges: rounding turns a cross product by about 2^-24 / sin(angle between
+    // the two), and the sine is largest across the longest edge. `max` gives needles, where the
+    // corners differ most, the most weight.
+    const auto is_u_longest = (uu > vv) & (uu > ww);
+    const auto is_w_longest = (ww > vv) & (ww > uu);
+    terms.base = cross(select(is_u_longest, v, u), select(is_w_longest, v, w));
     return is_usual_factor(uu) & is_usual_factor(vv) & is_usual_factor(ww);
   }
 }
