@@ -26,6 +26,10 @@ inline constexpr std::size_t kReadableTailBytes = 64;
 ///
 /// Zeroing 100 MB that the next pass overwrites costs as much as the pass, so `std::vector` is not
 /// used for columns. Move-only; throws std::bad_alloc on construction.
+///
+/// Threads    Const members may be called concurrently; two buffers share nothing.
+/// Lifetime   Pointers and spans are valid until the buffer is assigned to or destroyed; moving it
+///            hands them over with the memory.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -53,8 +53,11 @@ struct BuildOutput {
   Buffer<Index> vertices_new_to_old;
 };
 
-/// Builds connectivity from a face list, and classifies every defect in the same passes.
+/// Builds connectivity from a face list, and classifies every defect in the same passes. Numbering
+/// the half-edges by corners is that of S. Campagna, L. Kobbelt and H.-P. Seidel, "Directed edges",
+/// 1998.
 ///
+/// Pre        The arrays of `faces` are as long as it says; what stands in them may be anything.
 /// Pairs      Two half-edges become opposite if they are the only ones on their edge and run in
 ///            different directions; anything else is left without opposite and reported.
 /// Output     Canonical form (I8), default boundary form; `outgoing[v]` starts the fan that holds
@@ -65,6 +68,7 @@ struct BuildOutput {
 /// Errors     What `check(FaceList)` finds, unsupported_policy, and the first defect whose policy
 ///            is `fail`. Throws std::bad_alloc. On either, nothing has happened.
 /// Threads    Those of `execution`; same bytes for all of them.
+/// Lifetime   The result shares nothing with `faces`, unless `borrow_corners` says so.
 [[nodiscard]] Result<BuildOutput> build(const FaceList& faces, const BuildOptions& options,
                                         const Execution& execution);
 

@@ -15,7 +15,11 @@
 /// and the closed form give the same neighbours and faces in the same order; the closed form has
 /// boundary half-edges to visit besides.
 ///
-/// Cost       A few registers, nothing allocated; O(1) for each element but where said otherwise.
+/// Pre        The mesh is sound, as `validate` says, and the element is one of its own.
+/// Cost       A few registers, nothing allocated; O(1) for each element but where said otherwise,
+///            and O(log fans) once at a vertex of a mesh with several fans anywhere. A step round a
+///            vertex reads `opposite` and a stored `next`; a neighbour reads `origin` besides.
+/// Threads    Any number of ranges over one mesh at a time; no writer beside them.
 /// Lifetime   A range refers to the view it was made from: a named one, which must outlive it.
 namespace hedgerow {
 

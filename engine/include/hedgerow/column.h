@@ -12,6 +12,7 @@ namespace hedgerow {
 /// Layout    `size()` values of type `Index`, contiguous. `Key` and `Value` are id types, so
 ///           indexing with the wrong kind of id, or storing the result as the wrong kind, does not
 ///           compile.
+/// Pre       Indexing: the id is valid and below `size()`; asserted in debug builds.
 /// Threads   Any number of concurrent readers.
 /// Lifetime  Owns nothing; valid as long as the storage it was made from.
 template <class Key, class Value>

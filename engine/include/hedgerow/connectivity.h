@@ -19,6 +19,7 @@ enum class Form : std::uint8_t {
 };
 
 /// The storage of one column: owned, or the caller's array, which must then outlive the mesh.
+/// Move-only; what it was moved from is empty.
 class ColumnStorage {
  public:
   ColumnStorage() noexcept = default;
@@ -68,6 +69,9 @@ struct ConnectivityColumns {
 
 /// Connectivity of an oriented mesh of triangles or polygons, with boundary, as flat columns.
 ///
+/// Layout     See the drawing in engine/DESIGN.md. The half-edge as record: D. Muller and F.
+///            Preparata, "Finding the intersection of two convex polyhedra", 1978; as numbers, with
+///            `next` and `face` of triangles computed: Campagna, Kobbelt and Seidel, 1998.
 /// Invariants I1 to I8 are listed in engine/DESIGN.md and checked by `validate`.
 /// Cost       A triangle mesh stores origin, opposite and outgoing: 26 bytes a triangle; `next` and
 ///            `face` are arithmetic until `materialise` stores them.
@@ -101,7 +105,8 @@ class Connectivity {
   /// \pre is_explicit()
   [[nodiscard]] PolygonView polygons() const noexcept;
 
-  /// Calls `function` with the cheapest view that this mesh has, and returns its result.
+  /// Calls `function` with the cheapest view that this mesh has, and returns its result. The view
+  /// is a temporary: the function must not keep it.
   template <class Function>
   decltype(auto) visit(Function&& function) const {
     if (is_implicit()) return std::forward<Function>(function)(triangles());
@@ -109,9 +114,11 @@ class Connectivity {
   }
 
   /// Stores `next`, `face` and `first` of an implicit mesh (which stays implicit too).
-  /// Complexity O(H); writes 2 H + F indices. Nothing to do on an explicit mesh.
+  /// Complexity O(H); writes 2 H + F indices. Nothing to do on an explicit mesh. Throws
+  /// std::bad_alloc, and has then changed nothing.
   void materialise(const Execution& execution);
 
+  // The stored columns as plain arrays of H, H and V indices, and the table of further fans.
   [[nodiscard]] std::span<const Index> origin() const noexcept { return columns_.origin.span(); }
   [[nodiscard]] std::span<const Index> opposite() const noexcept {
     return columns_.opposite.span();

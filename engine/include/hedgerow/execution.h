@@ -27,7 +27,8 @@ class Execution {
   /// The TBB arena that the calling thread is in, with as many threads as that arena has.
   [[nodiscard]] static Execution current_arena() noexcept;
 
-  /// A `tbb::task_arena` of the caller's. A template, so that this header needs no TBB.
+  /// A `tbb::task_arena` of the caller's, whose threads are counted now. A template, so that this
+  /// header needs no TBB.
   template <class Arena>
   [[nodiscard]] static Execution in(Arena& arena) {
     Execution execution;
@@ -40,10 +41,12 @@ class Execution {
     return execution;
   }
 
-  /// A parallel loop of the caller's, with `threads` workers (at least 1).
+  /// A parallel loop of the caller's, with `threads` workers (at least 1). \pre `loop` is not null,
+  /// and calls the body with ranges that partition [0, count), each once, before it returns.
   [[nodiscard]] static Execution callback(ParallelFor loop, void* context, int threads) noexcept;
 
   /// The same execution with another task size in elements; 0 leaves the choice to each operation.
+  /// \pre grain >= 0
   [[nodiscard]] constexpr Execution with_grain(Index grain) const noexcept {
     Execution execution = *this;
     execution.grain_ = grain;

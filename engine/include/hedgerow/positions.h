@@ -8,7 +8,11 @@
 namespace hedgerow {
 
 /// The caller's vertex positions: float x, y, z each `stride_bytes` apart (12, 16 or more, a
-/// multiple of 4). Not copied, not owned; no byte behind the last z is read.
+/// multiple of 4). Not copied, not owned; no byte behind the last z is read. The unit of length is
+/// the caller's.
+///
+/// Pre        Indexing: 0 <= i < count; not checked.
+/// Lifetime   The array must outlive the call that it is passed to.
 struct Positions {
   const float* data = nullptr;
   std::int64_t count = 0;
@@ -20,8 +24,8 @@ struct Positions {
   }
 };
 
-/// Where normals are written: float x, y, z each `stride_bytes` apart; bytes between are left
-/// alone.
+/// Where normals are written: float x, y, z each `stride_bytes` apart (12, 16 or more, a multiple
+/// of 4); bytes between are left alone. Pre and lifetime as those of `Positions`.
 struct NormalsOut {
   float* data = nullptr;
   std::int64_t count = 0;

@@ -12,6 +12,13 @@
 #include "hedgerow/result.h"
 
 /// Questions about one element, on either view and in both forms; then about the whole mesh.
+///
+/// Pre        The mesh is sound, as `validate` says, and the element is one of its own.
+/// Cost       About one element: linear in what is walked, so O(valence) or O(degree) where nothing
+///            else is said, and nothing is allocated. About the whole mesh: as said there; these
+///            throw std::bad_alloc.
+/// Threads    Any number of questions at a time; no writer beside them. What takes an `Execution`
+///            runs on its threads, with the same answer for all of them.
 namespace hedgerow {
 
 /// Sides of the face of `h`, or of its hole if it has no face. O(1) with a face, else O(sides).
@@ -107,7 +114,7 @@ struct EdgeCounts {
 };
 
 /// O(H), and O(n log n) in the n half-edges on the boundary: half-edges that the builder left
-/// unpaired on one edge are brought together again.
+/// unpaired on one edge are brought together again. Pairs are counted on the calling thread.
 [[nodiscard]] EdgeCounts count_edges(const Connectivity& mesh, const Execution& execution);
 
 /// Vertices whose faces, joined across the edges they share there, form more than one group.

@@ -10,7 +10,7 @@
 namespace hedgerow {
 
 /// Vertex positions and faces without connectivity: what readers and generators make and `build`
-/// takes.
+/// takes. Move-only; indices are not checked until the build.
 struct Soup {
   Buffer<float> xyz;      ///< three floats a vertex
   Buffer<Index> corners;  ///< vertex of each corner, face by face

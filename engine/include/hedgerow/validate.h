@@ -28,6 +28,7 @@ struct Violation {
 /// known to be in range, and no walk is longer than the mesh. I6 holds for each fan of a vertex by
 /// itself. Columns of lengths that disagree are all that is reported of such a mesh.
 ///
+/// Pre        None. Throws std::bad_alloc.
 /// Complexity O(V + H + F), no cap on valence or degree; reads every column about three times.
 /// Threads    Those of `execution`; the same list for all of them.
 [[nodiscard]] std::vector<Violation> validate(const Connectivity& mesh, const Execution& execution);

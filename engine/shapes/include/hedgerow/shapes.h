@@ -14,7 +14,10 @@
 ///            square roots and our own sine, rounded to float once.
 /// Faces      Counter-clockwise seen from outside, or from above for the height fields.
 /// Errors     count_mismatch: an argument is below its smallest value (value and limit say which);
-///            too_many_elements: the mesh does not fit an `Index`. Both before any allocation.
+///            too_many_elements: the mesh does not fit an `Index`. Both before any allocation;
+///            then std::bad_alloc is thrown where memory does not suffice.
+/// Cost       In proportion to the mesh, on the calling thread.
+/// Threads    Any number of calls at once.
 namespace hedgerow::shapes {
 
 /// A gently waved height field of `columns` x `rows` unit squares, each cut into two triangles, row
@@ -54,11 +57,12 @@ enum class FanEnds : std::uint8_t {
 [[nodiscard]] Result<Soup> terrain(std::int64_t columns, std::int64_t rows, std::uint64_t seed = 1);
 
 /// Two periods of a gyroid in a box of `cells`^3 cubes, by marching tetrahedra: like a scan, with
-/// irregular valences, thin triangles and many boundary loops. At least 4.
+/// irregular valences, thin triangles and many boundary loops. At least 4. The surface is
+/// A. Schoen's (1970).
 [[nodiscard]] Result<Soup> gyroid(std::int64_t cells);
 
 /// The same faces with vertices and faces renumbered at random; each face keeps its corners in
-/// order. `seed` decides the order alone, the same on every machine.
+/// order. `seed` decides the order alone, the same on every machine. \pre every index is in range.
 [[nodiscard]] Soup shuffled(const Soup& soup, std::uint64_t seed);
 
 enum class Shape : std::uint8_t {

@@ -19,7 +19,9 @@ namespace hedgerow::io {
 ///            directly, without this promise.
 /// Failure    After a failed call the object only remembers the error: later calls return it again.
 ///            Without a successful commit the destructor removes the temporary file. A process that
-///            is killed may leave a temporary file behind, never a damaged target.
+///            is killed may leave a temporary file behind, never a damaged target, and the next
+///            save is not hindered by it.
+/// Threads    One at a time for one object; any number of objects, of the same target too.
 class AtomicFile {
  public:
   struct Options {
@@ -27,6 +29,8 @@ class AtomicFile {
     bool durable = true;
   };
 
+  /// Errors     cannot_create: the directory or the target may not be written, or `path` names a
+  ///            directory; nothing was made.
   [[nodiscard]] static IoResult<AtomicFile> create(const std::filesystem::path& path,
                                                    Options options);
   [[nodiscard]] static IoResult<AtomicFile> create(const std::filesystem::path& path) {
@@ -38,8 +42,10 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
+  /// Appends; nothing is kept back in memory. Errors: cannot_write.
   [[nodiscard]] IoResult<void> write(std::span<const char> bytes);
-  /// Everything is checked: the size on disk, the flush, the close, the rename. Call once.
+  /// Everything is checked: the size on disk, the flush, the close, the rename. Call once. Errors:
+  /// cannot_write, and the target is as it was.
   [[nodiscard]] IoResult<void> commit();
 
   [[nodiscard]] std::int64_t bytes_written() const noexcept { return bytes_written_; }

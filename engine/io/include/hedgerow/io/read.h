@@ -14,10 +14,11 @@
 namespace hedgerow::io {
 
 struct ReadOptions {
-  /// Keep faces that refer to vertices that do not exist, with an index that `build` classifies as
-  /// `DefectKind::out_of_range`: below 0 or not below the vertex count. It is the index of the file
-  /// (counted from 0) where that fits an `Index`, else `kInvalidIndex`. Without it such a file is
-  /// malformed.
+  /// Keep faces that refer to vertices that do not exist. Without it such a file is malformed.
+  ///
+  /// The corner then holds the index of the file, counted from 0, where that fits an `Index`, else
+  /// `kInvalidIndex`. Either way it is below 0 or not below the vertex count, so that `build`
+  /// classifies the face as `DefectKind::out_of_range`.
   bool keep_out_of_range = false;
   /// Keep NaN and infinite coordinates. Without it such a file is malformed.
   bool keep_non_finite = false;
@@ -34,9 +35,9 @@ struct ReadWarning {
 };
 
 struct ReadOutput {
-  /// Faces in file order, each with the corners of the file: also those with fewer than three
-  /// corners or a repeated vertex, which are the builder's to classify. Polygons stay polygons;
-  /// `offsets` is empty if all faces are triangles.
+  /// Faces in the order of the file, each with the corners that it has there. Faces with fewer than
+  /// three corners or with a repeated vertex are kept: they are the builder's to classify. Polygons
+  /// stay polygons; `offsets` is empty if all faces are triangles.
   Soup soup;
   Format format{};
   std::vector<ReadWarning> warnings;
@@ -44,33 +45,47 @@ struct ReadOutput {
 
 /// Reads a mesh file; the extension decides the format.
 ///
-/// OBJ   v, f (and fo); negative and forward references; \ at the end of a line continues it.
-///       Texture coordinates, normals, colours, w, groups, lines and curves are skipped.
-/// PLY   ascii and both binary orders; x, y, z of any scalar type, vertex_index or vertex_indices
-///       of any integer type, elements and properties in any order; tristrips with -1 as restart
-///       where there is no list of faces (triangles of a strip that repeat a vertex are dropped).
-///       In ascii one element is one line.
-/// OFF   OFF, COFF, NOFF, STOFF and their mixtures; one vertex or face a line. OFF BINARY with
-///       32-bit values in the byte order, and with or without a colour count a face, whichever
-///       makes the records end with the file; big-endian with colour counts (the standard) if
-///       several do. 4OFF and nOFF are refused by name.
-/// STL   Binary if the size is 84 + 50 times the count (up to 49 bytes behind are warned about),
-///       or else if there is a byte 0 or no "solid" at the start; otherwise ascii. Vertices with
-///       equal coordinates are welded (-0 equals 0), numbered by first occurrence; normals are
-///       skipped.
-/// glTF  2.0, .gltf and .glb: all triangle, strip and fan primitives of all meshes, once each and
-///       one after the other; node transforms are not applied, nothing is welded. Points and lines
-///       are skipped. Buffers may be embedded or files in the directory of `path`.
+/// OBJ   Vertices (v) and faces (f, and the older fo), with negative indices and faces that come
+///       before their vertices. A backslash at the end of a line continues it. Texture coordinates,
+///       normals, colours, weights, groups, lines and curves are skipped.
 ///
-/// Only regular files are read. Line ends may be LF, CR LF or CR; there is no limit on line length.
-/// Numbers do not depend on the locale. Memory is in proportion to the size of the file, whatever
-/// counts it declares.
-/// Complexity O(bytes). Threads: any number of calls at once.
+/// PLY   Ascii and both binary byte orders. x, y and z may be of any scalar type, vertex_index or
+///       vertex_indices of any integer type, and elements and properties may come in any order.
+///       Unknown ones are skipped exactly. In ascii, one element is one line.
+///       Where there is no list of faces, triangle strips are read, with -1 as restart; triangles
+///       of a strip that repeat a vertex, which only join its parts, are dropped.
+///
+/// OFF   OFF, COFF, NOFF, STOFF and their combinations, one vertex or face a line. 4OFF and nOFF
+///       are refused by name.
+///       OFF BINARY has 32-bit values, and files exist in either byte order, with and without a
+///       colour count behind each face. The reading whose records end where the file ends is taken;
+///       if several do, it is the standard's, big-endian with colour counts.
+///
+/// STL   Binary if the size is 84 bytes and 50 for each triangle counted (up to 49 bytes more are
+///       warned about), or if the file has a byte 0 or does not begin with "solid"; else ascii.
+///       Vertices with equal coordinates become one (-0 equals 0), numbered by first occurrence.
+///       Normals are skipped.
+///
+/// glTF  Version 2.0, as .gltf or .glb. The triangles, strips and fans of all meshes, each mesh
+///       once and one after the other; points and lines are skipped. Node transforms are not
+///       applied, and nothing is welded. Buffers may be embedded, or files in the directory of
+///       `path`.
+///
+/// Pre        None: any file gives a mesh or an error. Only regular files are read. Lines end with
+///            LF, CR LF or CR and may be of any length. Numbers do not depend on the locale.
+/// Complexity O(bytes). Memory is in proportion to the size of the file, whatever counts it
+///            declares.
+/// Errors     Every `IoErrorCode` but those of writing, with the place in the file. Throws
+///            std::bad_alloc.
+/// Threads    Any number of calls at once.
+/// Lifetime   The result refers to nothing; the file is closed.
 [[nodiscard]] IoResult<ReadOutput> read(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 
-/// The same from memory. `path` is quoted in errors, and its directory is where files named by a
-/// glTF asset are looked for. No byte behind `bytes` is read.
+/// The same from memory. `path` is quoted in errors, and its directory is where the files that a
+/// glTF asset names are looked for.
+///
+/// Lifetime   `bytes` must outlive the call; no byte behind them is read.
 [[nodiscard]] IoResult<ReadOutput> read_bytes(std::span<const char> bytes, Format format,
                                               const std::filesystem::path& path,
                                               const ReadOptions& options = {});

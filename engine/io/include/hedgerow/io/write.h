@@ -11,7 +11,7 @@
 
 namespace hedgerow::io {
 
-/// What is written. Owns nothing.
+/// What is written. Owns nothing; the arrays must outlive the call.
 struct WriteInput {
   Positions positions;
   FaceList faces;
@@ -43,8 +43,11 @@ struct WriteOutput {
 /// STL       Polygons are cut into a fan from their first corner; unreferenced vertices are lost,
 ///           as the format demands. Facet normals are computed; (0, 0, 0) for a face of no area.
 ///
-/// Pre        Faces refer to vertices that exist; else bad_mesh, and nothing is written.
-/// Complexity O(bytes). Threads: any number of calls at once, for different targets.
+/// Pre        None: a mesh with faces that refer to vertices that do not exist is refused.
+/// Complexity O(bytes); one block of 256 KiB is all the memory it takes.
+/// Errors     unknown_extension, bad_mesh, too_many_elements, cannot_create, cannot_write. On any,
+///            what was there is as it was, but for a stream. Throws std::bad_alloc.
+/// Threads    Any number of calls at once; of two for one target, the later commit stays.
 [[nodiscard]] IoResult<WriteOutput> write(const std::filesystem::path& path,
                                           const WriteInput& input,
                                           const WriteOptions& options = {});
