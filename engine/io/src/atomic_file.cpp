@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kLargestWrite = std::size_t{1} << 30;  // Linux moves at most 2 GiB a call
 constexpr int kMostLinks = 40;
+constexpr int kMostLeftovers = 10'000;
 
 // Only the number of a name that is in use must differ, so one counter for the process will do.
 std::atomic<unsigned> temporary_count{0};
@@ -120,10 +121,16 @@ IoResult<AtomicFile> AtomicFile::create(const std::filesystem::path& path, Optio
   if (exists && ::access(file.target_.c_str(), W_OK) != 0) {
     return refuse("cannot replace the target", errno);
   }
-  const std::filesystem::path temporary = temporary_beside(file.target_);
   const mode_t mode = exists ? old.st_mode & 07777 : 0666;
-  file.descriptor_ =
-      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : mode);
+  std::filesystem::path temporary;
+  // A process that was killed has left its temporary file, and numbers of processes come again: in
+  // a container often the same one.
+  for (int i = 0; i < kMostLeftovers; ++i) {
+    temporary = temporary_beside(file.target_);
+    file.descriptor_ =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : mode);
+    if (file.descriptor_ >= 0 || errno != EEXIST) break;
+  }
   if (file.descriptor_ < 0) {
     return refuse("cannot create a file in " + directory_of(file.target_).string(), errno);
   }
