@@ -119,14 +119,8 @@ TEST(OpenBoundary, RefusesAMeshThatIsOpen) {
 }
 
 TEST(OpenBoundary, RefusesADanglingEdge) {
-  ReferenceMesh mesh = reference_closed(reference_of({{{0, 1, 2}}, 4}));
-  mesh.origin.insert(mesh.origin.end(), {0, 3});
-  mesh.opposite.insert(mesh.opposite.end(), {7, 6});
-  mesh.face.insert(mesh.face.end(), {-1, -1});
-  mesh.next.insert(mesh.next.end(), {7, 4});
-  mesh.next[3] = 6;
-  mesh.outgoing[3] = 7;
-  const auto opened = open_boundary(to_connectivity(mesh), Execution::serial());
+  const auto opened =
+      open_boundary(to_connectivity(triangle_with_dangling_edge()), Execution::serial());
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::not_canonical);
   EXPECT_EQ(opened.error().element, 6);

@@ -78,16 +78,7 @@ TEST(Circulate, GoesRoundAFaceFromItsFirstHalfedge) {
 }
 
 TEST(Circulate, PassesAlongBothSidesOfADanglingEdge) {
-  // A triangle 0 1 2 in the closed form, with an edge from 0 to 3 into the outside.
-  ReferenceMesh mesh = reference_closed(reference_of({{{0, 1, 2}}, 4}));
-  // 3: 1 -> 0, 4: 0 -> 2, 5: 2 -> 1 are the boundary; 6: 0 -> 3 and 7: 3 -> 0 come in at 0.
-  mesh.origin.insert(mesh.origin.end(), {0, 3});
-  mesh.opposite.insert(mesh.opposite.end(), {7, 6});
-  mesh.face.insert(mesh.face.end(), {-1, -1});
-  mesh.next.insert(mesh.next.end(), {7, 4});
-  mesh.next[3] = 6;
-  mesh.outgoing[3] = 7;
-  const Connectivity connectivity = to_connectivity(mesh);
+  const Connectivity connectivity = to_connectivity(triangle_with_dangling_edge());
   const PolygonView view = connectivity.polygons();
   EXPECT_EQ(numbers(boundary_loop(view, HalfedgeId(3))), (Numbers{3, 6, 7, 4, 5}));
   EXPECT_EQ(sorted(numbers(neighbours(view, VertexId(0)))), (Numbers{1, 2, 3}));

@@ -21,10 +21,8 @@ Faces faces_of(const Soup& soup) {
   Faces faces;
   const FaceList list = soup.face_list();
   for (Index f = 0; f < soup.face_count(); ++f) {
-    const Index begin = list.is_triangles() ? 3 * f : soup.offsets[static_cast<std::size_t>(f)];
-    const Index end =
-        list.is_triangles() ? begin + 3 : soup.offsets[static_cast<std::size_t>(f) + 1];
-    faces.emplace_back(soup.corners.begin() + begin, soup.corners.begin() + end);
+    const IndexRange range = list.corner_range(f);
+    faces.emplace_back(soup.corners.begin() + range.begin, soup.corners.begin() + range.end);
   }
   return faces;
 }

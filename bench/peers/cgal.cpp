@@ -27,10 +27,9 @@ class CgalMesh final : public MeasuredMesh {
     const auto* corners = static_cast<const Index*>(faces.corners);
     std::vector<Mesh::Vertex_index> vertices;
     for (Index f = 0; f < faces.face_count; ++f) {
-      const Index begin = faces.is_triangles() ? 3 * f : faces.offsets[f];
-      const Index end = faces.is_triangles() ? 3 * f + 3 : faces.offsets[f + 1];
+      const IndexRange range = faces.corner_range(f);
       vertices.clear();
-      for (Index i = begin; i < end; ++i) {
+      for (Index i = range.begin; i < range.end; ++i) {
         vertices.emplace_back(static_cast<Mesh::size_type>(corners[i]));
       }
       if (mesh_.add_face(vertices) == Mesh::null_face()) return false;
@@ -42,12 +41,11 @@ class CgalMesh final : public MeasuredMesh {
     const auto* corners = static_cast<const Index*>(faces_.corners);
     std::vector<Index> corner_of(mesh_.number_of_halfedges(), kInvalidIndex);
     for (Index f = 0; f < faces_.face_count; ++f) {
-      const Index begin = faces_.is_triangles() ? 3 * f : faces_.offsets[f];
-      const Index end = faces_.is_triangles() ? 3 * f + 3 : faces_.offsets[f + 1];
-      const auto first = static_cast<Mesh::size_type>(corners[begin]);
+      const IndexRange range = faces_.corner_range(f);
+      const auto first = static_cast<Mesh::size_type>(corners[range.begin]);
       Mesh::Halfedge_index h = mesh_.halfedge(Mesh::Face_index(static_cast<Mesh::size_type>(f)));
       while (mesh_.source(h) != Mesh::Vertex_index(first)) h = mesh_.next(h);
-      for (Index i = begin; i < end; ++i) {
+      for (Index i = range.begin; i < range.end; ++i) {
         corner_of[h.idx()] = i;
         h = mesh_.next(h);
       }

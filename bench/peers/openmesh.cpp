@@ -29,10 +29,10 @@ class OpenMeshMesh final : public MeasuredMesh {
     const auto* corners = static_cast<const Index*>(faces.corners);
     std::vector<OpenMesh::VertexHandle> handles;
     for (Index f = 0; f < faces.face_count; ++f) {
-      const Index begin = faces.is_triangles() ? 3 * f : faces.offsets[f];
-      const Index end = faces.is_triangles() ? 3 * f + 3 : faces.offsets[f + 1];
+      const IndexRange range = faces.corner_range(f);
       handles.clear();
-      for (Index i = begin; i < end; ++i) handles.emplace_back(static_cast<int>(corners[i]));
+      for (Index i = range.begin; i < range.end; ++i)
+        handles.emplace_back(static_cast<int>(corners[i]));
       if (!mesh_.add_face(handles).is_valid()) return false;
     }
     return true;
@@ -42,11 +42,11 @@ class OpenMeshMesh final : public MeasuredMesh {
     const auto* corners = static_cast<const Index*>(faces_.corners);
     std::vector<Index> corner_of(mesh_.n_halfedges(), kInvalidIndex);
     for (Index f = 0; f < faces_.face_count; ++f) {
-      const Index begin = faces_.is_triangles() ? 3 * f : faces_.offsets[f];
-      const Index end = faces_.is_triangles() ? 3 * f + 3 : faces_.offsets[f + 1];
+      const IndexRange range = faces_.corner_range(f);
       OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(f)));
-      while (mesh_.from_vertex_handle(h).idx() != corners[begin]) h = mesh_.next_halfedge_handle(h);
-      for (Index i = begin; i < end; ++i) {
+      while (mesh_.from_vertex_handle(h).idx() != corners[range.begin])
+        h = mesh_.next_halfedge_handle(h);
+      for (Index i = range.begin; i < range.end; ++i) {
         corner_of[static_cast<std::size_t>(h.idx())] = i;
         h = mesh_.next_halfedge_handle(h);
       }

@@ -37,4 +37,17 @@ inline ReferenceMesh reference_of(const PlainFaces& list) {
   return reference_mesh(faces, static_cast<Index>(list.vertex_count));
 }
 
+/// A triangle 0 1 2 in the closed form, with an edge from 0 to 3 into the outside: of the boundary
+/// 3: 1 -> 0, 4: 0 -> 2, 5: 2 -> 1 and of the edge 6: 0 -> 3, 7: 3 -> 0, which come in at 0.
+inline ReferenceMesh triangle_with_dangling_edge() {
+  ReferenceMesh mesh = reference_closed(reference_of({{{0, 1, 2}}, 4}));
+  mesh.origin.insert(mesh.origin.end(), {0, 3});
+  mesh.opposite.insert(mesh.opposite.end(), {7, 6});
+  mesh.face.insert(mesh.face.end(), {-1, -1});
+  mesh.next.insert(mesh.next.end(), {7, 4});
+  mesh.next[3] = 6;
+  mesh.outgoing[3] = 7;
+  return mesh;
+}
+
 }  // namespace hedgerow::test

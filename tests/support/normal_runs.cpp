@@ -28,10 +28,9 @@ Vector unit_of(const Vector& a) { return length(a) > 0 ? times(a, 1 / length(a))
 Index corner(const FaceList& faces, Index c) { return static_cast<const Index*>(faces.corners)[c]; }
 
 std::vector<Vector> points_of(const FaceList& faces, Index f, Positions positions) {
-  const Index begin = faces.is_triangles() ? 3 * f : faces.offsets[f];
-  const Index end = faces.is_triangles() ? 3 * f + 3 : faces.offsets[f + 1];
+  const IndexRange range = faces.corner_range(f);
   std::vector<Vector> points;
-  for (Index c = begin; c < end; ++c) {
+  for (Index c = range.begin; c < range.end; ++c) {
     const float* p = positions[corner(faces, c)];
     points.push_back({p[0], p[1], p[2]});
   }
@@ -91,7 +90,7 @@ std::vector<double> oracle(const FaceList& faces, Positions positions,
   for (Index f = 0; f < faces.face_count; ++f) {
     const std::vector<Vector> points = points_of(faces, f, positions);
     const Vector area = area_vector(points, options.polygon);
-    const Index begin = faces.is_triangles() ? 3 * f : faces.offsets[f];
+    const Index begin = faces.corner_range(f).begin;
     for (std::size_t k = 0; k < points.size(); ++k) {
       Vector& sum = sums[static_cast<std::size_t>(corner(faces, begin + static_cast<Index>(k)))];
       sum = plus(sum, corner_vector(points, k, area, options.weight));

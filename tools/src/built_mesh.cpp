@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,17 +54,33 @@ Buffer<float> kept_positions(const BuildOutput& output, const Buffer<float>& pos
   return kept;
 }
 
-Soup kept_soup(const BuildOutput& output, const Buffer<float>& positions) {
+Soup soup_of(const Connectivity& mesh, Buffer<float> xyz) {
   Soup soup;
-  soup.xyz = output.vertices_new_to_old.empty() ? Buffer<float>::copy_of(positions.span())
-                                                : kept_positions(output, positions);
-  const FaceList faces = face_list(output.mesh);
-  soup.corners = Buffer<Index>::copy_of(output.mesh.origin());
+  soup.xyz = std::move(xyz);
+  soup.corners = Buffer<Index>::copy_of(mesh.origin());
+  const FaceList faces = face_list(mesh);
   if (!faces.is_triangles()) {
     soup.offsets =
         Buffer<Index>::copy_of({faces.offsets, static_cast<std::size_t>(faces.face_count) + 1});
   }
   return soup;
+}
+
+Soup kept_soup(const BuildOutput& output, const Buffer<float>& positions) {
+  return soup_of(output.mesh, output.vertices_new_to_old.empty()
+                                  ? Buffer<float>::copy_of(positions.span())
+                                  : kept_positions(output, positions));
+}
+
+OpenedMesh open_mesh(Run& run, const std::string& path) {
+  OpenedMesh opened;
+  run.progress().step("reading");
+  opened.file = read_mesh(run, path);
+  run.progress().step("building");
+  opened.built = build_mesh(run, opened.file);
+  enforce_strict(run, path, opened.built.output);
+  opened.kept = kept_soup(opened.built.output, opened.file.soup.xyz);
+  return opened;
 }
 
 std::string defect_text(const Defect& defect) {

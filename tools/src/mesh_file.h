@@ -60,6 +60,22 @@ void enforce_strict(const Run& run, const std::string& path, const BuildOutput& 
 /// `positions` are those of the input.
 [[nodiscard]] Soup kept_soup(const BuildOutput& output, const Buffer<float>& positions);
 
+/// The faces of a mesh in canonical form as a soup of its own, over the positions of its vertices.
+[[nodiscard]] Soup soup_of(const Connectivity& mesh, Buffer<float> xyz);
+
+/// What a command that works on one mesh starts from.
+struct OpenedMesh {
+  MeshFile file;
+  BuiltMesh built;  ///< may view the soup of `file`
+  Soup kept;        ///< what the connectivity stands for
+
+  [[nodiscard]] const Connectivity& mesh() const noexcept { return built.mesh(); }
+};
+
+/// Reads and builds with the policies of the run: two steps of the progress, "reading" and
+/// "building". Throws `Failure`; under --strict also if there are defects.
+[[nodiscard]] OpenedMesh open_mesh(Run& run, const std::string& path);
+
 /// "face 7, half-edge 21": the element ids of a defect.
 [[nodiscard]] std::string defect_text(const Defect& defect);
 [[nodiscard]] Json defect_json(const Defect& defect);

@@ -59,14 +59,10 @@ Normals compute(const Run& run, const Arguments& arguments, const Connectivity& 
 ExitStatus write_normals(Run& run, const Arguments& arguments) {
   check_output_path(arguments.output, ".ply");
   run.progress().begin(4);
-  run.progress().step("reading");
-  const MeshFile file = read_mesh(run, arguments.input);
-  run.progress().step("building");
-  const BuiltMesh built = build_mesh(run, file);
-  enforce_strict(run, arguments.input, built.output);
+  const OpenedMesh opened = open_mesh(run, arguments.input);
+  const Soup& soup = opened.kept;
   run.progress().step("computing normals");
-  const Soup soup = kept_soup(built.output, file.soup.xyz);
-  const Normals normals = compute(run, arguments, built.mesh(), soup);
+  const Normals normals = compute(run, arguments, opened.mesh(), soup);
   run.progress().step("writing");
   write_mesh(run, arguments.output, soup, normals.xyz);
 
@@ -89,7 +85,8 @@ ExitStatus write_normals(Run& run, const Arguments& arguments) {
   json["faces"] = soup.face_count();
   json["without_direction"] = normals.stats.degenerate_count;
   json["digest"] = hash;
-  json["timings_ms"] = {{"read", file.read_ms}, {"build", built.build_ms}, {"normals", normals.ms}};
+  json["timings_ms"] = {
+      {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"normals", normals.ms}};
   run.print_json(json);
   return ExitStatus::done;
 }

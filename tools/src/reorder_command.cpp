@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,20 +31,9 @@ ReorderMethod method_named(std::string_view word) {
 
 /// The reordered mesh as vertices and faces, positions carried along.
 Soup reordered_soup(const ReorderOutput& output, const Buffer<float>& positions) {
-  Soup soup;
-  const std::span<const Index> new_to_old = output.reordering.vertices_new_to_old.span();
-  soup.xyz = Buffer<float>(3 * new_to_old.size());
-  for (std::size_t v = 0; v < new_to_old.size(); ++v) {
-    std::copy_n(positions.data() + 3 * static_cast<std::size_t>(new_to_old[v]), 3,
-                soup.xyz.data() + 3 * v);
-  }
-  const FaceList faces = face_list(output.mesh);
-  soup.corners = Buffer<Index>::copy_of(output.mesh.origin());
-  if (!faces.is_triangles()) {
-    soup.offsets =
-        Buffer<Index>::copy_of({faces.offsets, static_cast<std::size_t>(faces.face_count) + 1});
-  }
-  return soup;
+  Buffer<float> xyz(positions.size());
+  fill_permuted(output.reordering.vertices_new_to_old.span(), positions.span(), xyz.span(), 3);
+  return soup_of(output.mesh, std::move(xyz));
 }
 
 Json locality_json(const Locality& locality) {
@@ -70,16 +59,12 @@ std::string report_text(const Run& run, const Arguments& arguments, const Reorde
 ExitStatus reorder_file(Run& run, const Arguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
-  run.progress().step("reading");
-  const MeshFile file = read_mesh(run, arguments.input);
-  run.progress().step("building");
-  const BuiltMesh built = build_mesh(run, file);
-  enforce_strict(run, arguments.input, built.output);
+  const OpenedMesh opened = open_mesh(run, arguments.input);
+  const Soup& soup = opened.kept;
   run.progress().step("reordering");
-  const Soup soup = kept_soup(built.output, file.soup.xyz);
   const Clock clock;
   const Result<ReorderOutput> output =
-      reorder(built.mesh(), soup.positions(), method_named(arguments.order), run.execution());
+      reorder(opened.mesh(), soup.positions(), method_named(arguments.order), run.execution());
   const double ms = clock.ms();
   if (!output) throw describe(output.error(), arguments.input);
   run.progress().step("writing");
@@ -99,7 +84,8 @@ ExitStatus reorder_file(Run& run, const Arguments& arguments) {
   json["before"] = locality_json(output->before);
   json["after"] = locality_json(output->after);
   json["helped"] = has_helped;
-  json["timings_ms"] = {{"read", file.read_ms}, {"build", built.build_ms}, {"reorder", ms}};
+  json["timings_ms"] = {
+      {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"reorder", ms}};
   run.print_json(json);
   return ExitStatus::done;
 }

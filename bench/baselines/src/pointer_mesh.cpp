@@ -73,7 +73,7 @@ void PointerHalfedgeMesh::make_faces(const FaceList& faces) {
   for (Index f = 0; f < faces.face_count; ++f) {
     auto face = std::make_unique<Face>();
     face->id = f;
-    const IndexRange range = detail::corner_range(faces, f);
+    const IndexRange range = faces.corner_range(f);
     Halfedge* prev = nullptr;
     for (Index i = range.begin; i < range.end; ++i) {
       auto h = std::make_unique<Halfedge>();

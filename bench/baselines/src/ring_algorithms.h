@@ -147,10 +147,4 @@ class Sets {
   std::vector<Index> parent_;
 };
 
-/// The corners of face f as [begin, end) in the corner array.
-inline IndexRange corner_range(const FaceList& faces, Index f) noexcept {
-  if (faces.is_triangles()) return {3 * f, 3 * f + 3};
-  return {faces.offsets[f], faces.offsets[f + 1]};
-}
-
 }  // namespace hedgerow::baselines::detail

@@ -58,7 +58,7 @@ void StructHalfedgeMesh::make_faces(const FaceList& faces) {
   faces_.resize(static_cast<std::size_t>(faces.face_count));
   halfedges_.resize(static_cast<std::size_t>(faces.corner_count()));
   for (Index f = 0; f < faces.face_count; ++f) {
-    const IndexRange range = detail::corner_range(faces, f);
+    const IndexRange range = faces.corner_range(f);
     faces_[static_cast<std::size_t>(f)].halfedge = range.begin;
     for (Index h = range.begin; h < range.end; ++h) {
       halfedges_[static_cast<std::size_t>(h)] = {corners[h], kInvalidIndex,

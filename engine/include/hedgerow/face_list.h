@@ -26,6 +26,8 @@ inline constexpr IndexFormat kNativeFormat =
 ///            are numbers offsets[f] .. offsets[f + 1] - 1, and corners lie `stride_bytes` apart.
 ///            `offsets` has face_count + 1 entries, starts at 0 and never decreases.
 /// Alignment  That of the index type.
+/// Lifetime   The arrays must outlive the call that the list is passed to, and the mesh where the
+///            build borrows them.
 struct FaceList {
   const void* corners = nullptr;
   IndexFormat format = kNativeFormat;
@@ -37,6 +39,11 @@ struct FaceList {
   [[nodiscard]] bool is_triangles() const noexcept { return offsets == nullptr; }
   [[nodiscard]] std::int64_t corner_count() const noexcept {
     return is_triangles() ? 3 * face_count : static_cast<std::int64_t>(offsets[face_count]);
+  }
+  /// The numbers of the corners of face f. \pre 0 <= f < face_count, and `check` found no error.
+  [[nodiscard]] IndexRange corner_range(std::int64_t f) const noexcept {
+    if (!is_triangles()) return {offsets[f], offsets[f + 1]};
+    return {static_cast<Index>(3 * f), static_cast<Index>(3 * f + 3)};
   }
   /// True if `corners` can serve as an `origin` column as it is: packed and as wide as `Index`.
   [[nodiscard]] bool is_native() const noexcept {
@@ -81,7 +88,7 @@ struct FaceList {
 };
 
 /// Checks addresses, strides, counts and that the offsets never decrease; not the indices.
-/// Complexity O(1) for triangles, O(F) for polygons.
+/// Complexity O(1) for triangles, O(F) for polygons. On the calling thread.
 /// Errors     null_pointer, bad_stride, too_many_elements, bad_face_offsets.
 [[nodiscard]] Result<void> check(const FaceList& faces);
 

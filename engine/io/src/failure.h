@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -27,6 +29,16 @@ using Parsed = tl::expected<T, Failure>;
 [[nodiscard]] inline tl::unexpected<Failure> failure(IoErrorCode code, std::size_t offset,
                                                      Place place, std::string message) {
   return tl::unexpected<Failure>(Failure{code, offset, place, std::move(message)});
+}
+
+/// An error about a file as a whole, without a place in it.
+[[nodiscard]] inline tl::unexpected<IoError> refuse(const std::filesystem::path& path,
+                                                    IoErrorCode code, std::string message) {
+  IoError error;
+  error.code = code;
+  error.path = path.string();
+  error.message = std::move(message);
+  return tl::unexpected<IoError>(std::move(error));
 }
 
 }  // namespace hedgerow::io

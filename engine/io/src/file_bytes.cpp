@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "failure.h"
+
 namespace hedgerow::io {
 
 namespace {
@@ -27,15 +29,6 @@ class Descriptor {
  private:
   int number_;
 };
-
-tl::unexpected<IoError> refuse(const std::filesystem::path& path, IoErrorCode code,
-                               std::string message) {
-  IoError error;
-  error.code = code;
-  error.path = path.string();
-  error.message = std::move(message);
-  return tl::unexpected<IoError>(std::move(error));
-}
 
 const char* kind_of(mode_t mode) noexcept {
   if (S_ISDIR(mode)) return "a directory";

@@ -102,16 +102,6 @@ struct WriteContext {
   static constexpr std::int64_t kProgressStep = 65536;
 };
 
-/// First corner of face f and how many it has.
-struct Corners {
-  std::int64_t first;
-  std::int64_t count;
-};
-[[nodiscard]] inline Corners corners_of(const FaceList& faces, std::int64_t f) noexcept {
-  if (faces.is_triangles()) return {3 * f, 3};
-  return {faces.offsets[f], faces.offsets[f + 1] - faces.offsets[f]};
-}
-
 /// The vertex of corner k of face f, whatever the width and the stride of the indices are.
 [[nodiscard]] inline std::int64_t vertex_at(const FaceList& faces, std::int64_t f,
                                             std::int64_t k) noexcept {

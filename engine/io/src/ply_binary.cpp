@@ -12,29 +12,6 @@ namespace hedgerow::io {
 
 namespace {
 
-template <bool kSwap>
-double scalar_as_double(const char* from, PlyType type) noexcept {
-  switch (type) {
-    case PlyType::i8:
-      return load<std::int8_t, kSwap>(from);
-    case PlyType::u8:
-      return load<std::uint8_t, kSwap>(from);
-    case PlyType::i16:
-      return load<std::int16_t, kSwap>(from);
-    case PlyType::u16:
-      return load<std::uint16_t, kSwap>(from);
-    case PlyType::i32:
-      return load<std::int32_t, kSwap>(from);
-    case PlyType::u32:
-      return load<std::uint32_t, kSwap>(from);
-    case PlyType::f32:
-      return static_cast<double>(load<float, kSwap>(from));
-    case PlyType::f64:
-      return load<double, kSwap>(from);
-  }
-  return 0;
-}
-
 // Integers only; a PLY list never has a wider count than 32 bits.
 template <bool kSwap>
 std::int64_t scalar_as_integer(const char* from, PlyType type) noexcept {
@@ -52,6 +29,13 @@ std::int64_t scalar_as_integer(const char* from, PlyType type) noexcept {
     default:
       return load<std::int32_t, kSwap>(from);
   }
+}
+
+template <bool kSwap>
+double scalar_as_double(const char* from, PlyType type) noexcept {
+  if (type == PlyType::f32) return static_cast<double>(load<float, kSwap>(from));
+  if (type == PlyType::f64) return load<double, kSwap>(from);
+  return static_cast<double>(scalar_as_integer<kSwap>(from, type));
 }
 
 template <bool kSwap>

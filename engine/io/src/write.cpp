@@ -7,20 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "failure.h"
 #include "output.h"
 
 namespace hedgerow::io {
 
 namespace {
-
-tl::unexpected<IoError> refuse(const std::filesystem::path& path, IoErrorCode code,
-                               std::string message) {
-  IoError error;
-  error.code = code;
-  error.path = path.string();
-  error.message = std::move(message);
-  return tl::unexpected<IoError>(std::move(error));
-}
 
 std::optional<std::string> defect_of(const Positions& points, const char* what) {
   if (points.count < 0) return fmt::format("a negative number of {}", what);
@@ -45,7 +37,7 @@ std::optional<std::string> defect_of(const WriteInput& input) {
                        name(error.code), error.element, error.value, error.limit);
   }
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     for (std::int64_t k = 0; k < degree; ++k) {
       const std::int64_t vertex = vertex_at(input.faces, f, k);
       if (vertex < 0 || vertex >= input.positions.count) {

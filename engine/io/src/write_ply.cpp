@@ -9,7 +9,7 @@ constexpr std::int64_t kLargestByteCount = 255;
 bool has_large_face(const FaceList& faces) noexcept {
   if (faces.is_triangles()) return false;
   for (std::int64_t f = 0; f < faces.face_count; ++f) {
-    if (corners_of(faces, f).count > kLargestByteCount) return true;
+    if (faces.corner_range(f).size() > kLargestByteCount) return true;
   }
   return false;
 }
@@ -88,7 +88,7 @@ void write_body(WriteContext& context, Values values, bool has_large) {
   }
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
     context.progress(input.positions.count + f);
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     if (has_large) {
       values.index(degree);
     } else {

@@ -60,7 +60,7 @@ void write_stl(WriteContext& context) {
   const bool is_ascii = context.options.stl == StlEncoding::ascii;
   std::int64_t triangle_count = 0;
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     triangle_count += std::max<std::int64_t>(degree - 2, 0);
     context.report.split_face_count += degree > 3 ? 1 : 0;
     context.report.dropped_face_count += degree < 3 ? 1 : 0;
@@ -76,7 +76,7 @@ void write_stl(WriteContext& context) {
   }
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
     context.progress(input.positions.count + f);
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     const auto point = [&](std::int64_t k) {
       return input.positions[static_cast<Index>(vertex_at(input.faces, f, k))];
     };

@@ -31,7 +31,7 @@ void write_obj(WriteContext& context) {
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
     context.progress(input.positions.count + f);
     out.character('f');
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     for (std::int64_t k = 0; k < degree; ++k) {
       const std::int64_t number = vertex_at(input.faces, f, k) + 1;
       out.character(' ');
@@ -64,7 +64,7 @@ void write_off(WriteContext& context) {
   }
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
     context.progress(input.positions.count + f);
-    const std::int64_t degree = corners_of(input.faces, f).count;
+    const std::int64_t degree = input.faces.corner_range(f).size();
     out.number(degree);
     for (std::int64_t k = 0; k < degree; ++k) {
       out.character(' ');
