@@ -31,7 +31,18 @@ std::vector<Index> random_triangles(std::uint32_t seed) {
   return corners;
 }
 
-TEST(CheckRuns, GivesTheSameAsTheScalarForm) {
+FaceCheck check_runs_sse(IndexRange range, const FaceColumns& faces, Index run_length,
+                         int block_shift, RunBlocks* runs) noexcept {
+  FaceCheck check;
+  if (check_triangle_runs_sse(range, faces, run_length, block_shift, runs, check)) return check;
+  return check_runs_scalar(range, faces, run_length, block_shift, runs);
+}
+
+// The widest of this machine, and the one below it.
+class CheckRunsForms : public testing::TestWithParam<decltype(&check_runs)> {};
+INSTANTIATE_TEST_SUITE_P(Forms, CheckRunsForms, testing::Values(&check_runs, &check_runs_sse));
+
+TEST_P(CheckRunsForms, GiveTheSameAsTheScalarForm) {
   Index bad = 0;
   for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
     const std::vector<Index> corners = random_triangles(seed);
@@ -41,7 +52,7 @@ TEST(CheckRuns, GivesTheSameAsTheScalarForm) {
     std::vector<RunBlocks> fast(static_cast<std::size_t>(run_count));
     std::vector<RunBlocks> plain(fast.size());
     const IndexRange all = {0, run_count};
-    const FaceCheck fast_check = check_runs(all, faces, kRunLength, kBlockShift, fast.data());
+    const FaceCheck fast_check = GetParam()(all, faces, kRunLength, kBlockShift, fast.data());
     const FaceCheck plain_check =
         check_runs_scalar(all, faces, kRunLength, kBlockShift, plain.data());
     ASSERT_EQ(fast_check.bad_count, plain_check.bad_count) << "seed " << seed;

@@ -17,7 +17,7 @@ namespace hedgerow::detail {
 namespace {
 
 // Above this many scans a face it is cheaper to partition all corners first; PERF.md, "Decisions".
-constexpr std::int64_t kMaxScanPerMille = 4500;
+constexpr std::int64_t kMaxScanPerMille = 20'000;
 
 // What one worker needs for one block at a time; grows and stays.
 struct Scratch {

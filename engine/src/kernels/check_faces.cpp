@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "kernels/simd_path.h"
+
 namespace hedgerow::kernels {
 
 namespace {
@@ -85,6 +87,9 @@ FaceCheck check_runs_scalar(IndexRange range, const FaceColumns& faces, Index ru
 
 FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length, int block_shift,
                      RunBlocks* runs) noexcept {
+  if (faces.is_triangles() && simd_path() == SimdPath::avx2) {
+    return check_triangle_runs_avx2(range, faces, run_length, block_shift, runs);
+  }
   FaceCheck check;
   if (faces.is_triangles() &&
       check_triangle_runs_sse(range, faces, run_length, block_shift, runs, check)) {

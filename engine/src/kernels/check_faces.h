@@ -36,12 +36,17 @@ struct RunBlocks {
                                           Index run_length, int block_shift,
                                           RunBlocks* runs) noexcept;
 
-/// The fast one: four 32-bit triangles at a time. False: not in this build, nothing was done.
+/// Four 32-bit triangles at a time. False: not in this build, nothing was done.
 [[nodiscard]] bool check_triangle_runs_sse(IndexRange range, const FaceColumns& faces,
                                            Index run_length, int block_shift, RunBlocks* runs,
                                            FaceCheck& check) noexcept;
 
-// Shared by the two.
+/// Eight triangles at a time. \pre `simd_path() == SimdPath::avx2`
+[[nodiscard]] FaceCheck check_triangle_runs_avx2(IndexRange range, const FaceColumns& faces,
+                                                 Index run_length, int block_shift,
+                                                 RunBlocks* runs) noexcept;
+
+// Shared by them.
 [[nodiscard]] FaceCheck check_face(const FaceColumns& faces, Index f) noexcept;
 void add_blocks(const FaceColumns& faces, IndexRange range, int block_shift,
                 RunBlocks& run) noexcept;

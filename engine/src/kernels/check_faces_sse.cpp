@@ -82,7 +82,7 @@ bool check_triangle_runs_sse(IndexRange range, const FaceColumns& faces, Index r
     for (; f + kGroup <= end && 3 * (f + kGroup) <= readable; f += kGroup) {
       const Group group = look_at(faces.corners + 3 * f, bounds);
       if (!group.is_good) check = check + check_faces({f, f + kGroup}, faces);
-      if (group.is_in_blocks) continue;
+      if (group.is_in_blocks || run.count > RunBlocks::kCapacity) continue;
       add_blocks(faces, {f, f + kGroup}, block_shift, run);
       bounds.block = _mm_set1_epi32(static_cast<int>(newest_block(run, 1)));
       bounds.block_before = _mm_set1_epi32(static_cast<int>(newest_block(run, 2)));

@@ -2,26 +2,9 @@
 
 #include <type_traits>
 
+#include "kernels/simd_path.h"
+
 namespace hedgerow::kernels {
-
-namespace {
-
-using Unsigned = std::make_unsigned_t<Index>;
-
-void place(Index local, Index v, const Corner& corner, CornerSlots& slots) noexcept {
-  const Index n = slots.count[local]++;
-  if (n >= CornerSlot::kCapacity) {
-    slots.overflow[slots.overflow_count++] = {v, corner};
-    return;
-  }
-  CornerSlot& slot = slots.slot[local];
-  slot.source[n] = corner.source;
-  slot.target[n] = corner.target;
-  slot.halfedge[n] = corner.halfedge;
-  slot.incoming[n] = corner.incoming;
-}
-
-}  // namespace
 
 void clear_slots(CornerSlots& slots) noexcept {
   for (Index i = 0; i < slots.block.size; ++i) {
@@ -33,24 +16,30 @@ void clear_slots(CornerSlots& slots) noexcept {
 
 void place_corners(IndexRange range, const FaceColumns& faces, Faces where,
                    CornerSlots& slots) noexcept {
+  if (where == Faces::some_outside) {
+    const bool is_fast = faces.is_triangles() && simd_path() == SimdPath::avx2;
+    is_fast ? place_triangles_avx2(range, faces, slots) : place_corners_scalar(range, faces, slots);
+    return;
+  }
   // A copy, so that the compiler need not think that a corner overwrites it.
   CornerSlots to = slots;
-  const Index begin = to.block.begin;
-  if (where == Faces::all_inside) {
-    for_each_corner(range, faces,
-                    [&](Index v, const Corner& corner) { place(v - begin, v, corner, to); });
-  } else {
-    const auto size = static_cast<Unsigned>(to.block.size);
-    for_each_corner(range, faces, [&](Index v, const Corner& corner) {
-      if (static_cast<Unsigned>(v - begin) < size) place(v - begin, v, corner, to);
-    });
-  }
+  for_each_corner(range, faces, [&](Index v, const Corner& corner) { add_corner(v, corner, to); });
+  slots.overflow_count = to.overflow_count;
+}
+
+void place_corners_scalar(IndexRange range, const FaceColumns& faces, CornerSlots& slots) noexcept {
+  CornerSlots to = slots;
+  const auto size = static_cast<std::make_unsigned_t<Index>>(to.block.size);
+  for_each_corner(range, faces, [&](Index v, const Corner& corner) {
+    const auto local = static_cast<std::make_unsigned_t<Index>>(v - to.block.begin);
+    if (local < size) add_corner(v, corner, to);
+  });
   slots.overflow_count = to.overflow_count;
 }
 
 void place_loose(std::span<const LooseCorner> loose, CornerSlots& slots) noexcept {
   CornerSlots to = slots;
-  for (const LooseCorner& l : loose) place(l.vertex - to.block.begin, l.vertex, l.corner, to);
+  for (const LooseCorner& l : loose) add_corner(l.vertex, l.corner, to);
   slots.overflow_count = to.overflow_count;
 }
 

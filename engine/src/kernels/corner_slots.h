@@ -38,6 +38,23 @@ struct CornerSlots {
   Index overflow_count = 0;
 };
 
+/// Adds one corner of vertex v. Inlined always, so that sources compiled for wider registers define
+/// no function that others could be linked to.
+[[gnu::always_inline]] inline void add_corner(Index v, const Corner& corner,
+                                              CornerSlots& slots) noexcept {
+  const Index local = v - slots.block.begin;
+  const Index n = slots.count[local]++;
+  if (n >= CornerSlot::kCapacity) {
+    slots.overflow[slots.overflow_count++] = {v, corner};
+    return;
+  }
+  CornerSlot& slot = slots.slot[local];
+  slot.source[n] = corner.source;
+  slot.target[n] = corner.target;
+  slot.halfedge[n] = corner.halfedge;
+  slot.incoming[n] = corner.incoming;
+}
+
 /// Empties the slots: no corners, and sources that equal no vertex.
 void clear_slots(CornerSlots& slots) noexcept;
 
@@ -48,6 +65,11 @@ enum class Faces { some_outside, all_inside };
 /// \pre `overflow` has room for all of them.
 void place_corners(IndexRange range, const FaceColumns& faces, Faces where,
                    CornerSlots& slots) noexcept;
+
+/// The plain form for faces of which some are outside, and one for triangles that asks eight of
+/// them at once. \pre of the second: `simd_path() == SimdPath::avx2`
+void place_corners_scalar(IndexRange range, const FaceColumns& faces, CornerSlots& slots) noexcept;
+void place_triangles_avx2(IndexRange range, const FaceColumns& faces, CornerSlots& slots) noexcept;
 
 /// The same for loose corners, which all belong to the block.
 void place_loose(std::span<const LooseCorner> loose, CornerSlots& slots) noexcept;

@@ -1,0 +1,112 @@
+// The form of check_faces_sse.cpp with eight triangles at a time, and four blocks remembered.
+
+#include <algorithm>
+
+#include "kernels/check_faces.h"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace hedgerow::kernels {
+
+#if defined(__AVX2__)
+
+namespace {
+
+constexpr Index kGroup = 8;     // triangles
+constexpr Index kTail = 2;      // indices behind a group that are read too
+constexpr int kRemembered = 4;  // blocks
+constexpr Index kWide = RunBlocks::kCapacity + 1;
+
+struct Bounds {
+  __m256i last_vertex;
+  __m128i shift;
+  __m256i block[kRemembered];
+};
+
+struct Group {
+  bool is_good;
+  bool is_in_blocks;
+};
+
+void remember(const RunBlocks& run, Bounds& bounds) noexcept {
+  for (int i = 0; i < kRemembered; ++i) {
+    const bool exists = run.count > i && run.count < kWide;
+    // -1 is the block of no vertex.
+    bounds.block[i] =
+        _mm256_set1_epi32(exists ? static_cast<int>(run.block[run.count - 1 - i]) : -1);
+  }
+}
+
+__m256i load(const Index* p) noexcept {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+}
+
+// Lane i of vector j holds index 8j + i: -1 where the index `ahead` places on belongs to the same
+// triangle.
+__m256i same_triangle(int j, int ahead) noexcept {
+  const auto lane = [&](int i) { return (8 * j + i) % 3 + ahead < 3 ? -1 : 0; };
+  return _mm256_setr_epi32(lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7));
+}
+
+Group look_at(const Index* c, const Bounds& bounds) noexcept {
+  __m256i good = _mm256_set1_epi32(-1);
+  __m256i equal = _mm256_setzero_si256();
+  __m256i inside = _mm256_set1_epi32(-1);
+  for (int j = 0; j < 3; ++j) {
+    const __m256i v = load(c + 8 * j);
+    good = _mm256_and_si256(good, _mm256_cmpeq_epi32(_mm256_min_epu32(v, bounds.last_vertex), v));
+    const __m256i next = _mm256_cmpeq_epi32(v, load(c + 8 * j + 1));
+    const __m256i after = _mm256_cmpeq_epi32(v, load(c + 8 * j + 2));
+    equal = _mm256_or_si256(equal, _mm256_or_si256(_mm256_and_si256(next, same_triangle(j, 1)),
+                                                   _mm256_and_si256(after, same_triangle(j, 2))));
+    const __m256i block = _mm256_srl_epi32(v, bounds.shift);
+    __m256i known = _mm256_cmpeq_epi32(block, bounds.block[0]);
+    for (int i = 1; i < kRemembered; ++i) {
+      known = _mm256_or_si256(known, _mm256_cmpeq_epi32(block, bounds.block[i]));
+    }
+    inside = _mm256_and_si256(inside, known);
+  }
+  return {_mm256_movemask_epi8(_mm256_andnot_si256(equal, good)) == -1,
+          _mm256_movemask_epi8(inside) == -1};
+}
+
+}  // namespace
+
+FaceCheck check_triangle_runs_avx2(IndexRange range, const FaceColumns& faces, Index run_length,
+                                   int block_shift, RunBlocks* runs) noexcept {
+  FaceCheck check;
+  const Index readable = faces.halfedge_count() - kTail;
+  for (Index r = range.begin; r < range.end; ++r) {
+    RunBlocks& run = runs[r];
+    run.count = 0;
+    Bounds bounds{_mm256_set1_epi32(static_cast<int>(faces.vertex_count - 1)),
+                  _mm_cvtsi32_si128(block_shift),
+                  {}};
+    remember(run, bounds);
+    Index f = r * run_length;
+    const Index end = std::min(faces.face_count, f + run_length);
+    for (; f + kGroup <= end && 3 * (f + kGroup) <= readable; f += kGroup) {
+      const Group group = look_at(faces.corners + 3 * f, bounds);
+      if (!group.is_good) check = check + check_faces({f, f + kGroup}, faces);
+      if (group.is_in_blocks || run.count == kWide) continue;
+      add_blocks(faces, {f, f + kGroup}, block_shift, run);
+      remember(run, bounds);
+    }
+    check = check + check_faces({f, end}, faces);
+    add_blocks(faces, {f, end}, block_shift, run);
+  }
+  return check;
+}
+
+#else
+
+FaceCheck check_triangle_runs_avx2(IndexRange range, const FaceColumns& faces, Index run_length,
+                                   int block_shift, RunBlocks* runs) noexcept {
+  return check_runs_scalar(range, faces, run_length, block_shift, runs);
+}
+
+#endif
+
+}  // namespace hedgerow::kernels
