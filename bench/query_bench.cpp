@@ -1,7 +1,8 @@
-// hedgerow/query.h: questions about the whole mesh, on the calling thread as they are.
+// hedgerow/query.h: questions about the whole mesh.
 #include <memory>
 
 #include "hedgerow/query.h"
+#include "peers/measured_mesh.h"
 #include "runner.h"
 
 namespace hedgerow::bench {
@@ -19,12 +20,26 @@ Work prepare_loops(const Dataset& data, const Execution&) {
   return work;
 }
 
-Work prepare_components(const Dataset& data, const Execution&) {
+Work prepare_components(const Dataset& data, const Execution& execution) {
   auto components = std::make_shared<Components>();
   Work work;
-  work.run = [&data, components] { *components = connected_components(data.mesh); };
+  work.run = [&data, components, execution] {
+    *components = connected_components(data.mesh, execution);
+  };
   work.run();
   if (components->count != data.reference.components) {
+    work.error = "another number of components than the reference; not measured";
+  }
+  return work;
+}
+
+Work prepare_peer_components(const Dataset& data, const Peer& peer) {
+  const auto mesh = built_mesh(peer, data.faces(), data.positions());
+  auto count = std::make_shared<Index>();
+  Work work;
+  work.run = [mesh, count] { *count = mesh->component_count(); };
+  work.run();
+  if (*count != data.reference.components) {
     work.error = "another number of components than the reference; not measured";
   }
   return work;
@@ -43,7 +58,17 @@ double components_bytes(const Dataset& data) {
 void add_query(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     add(plan, {"boundary_loops", key, 1, "", prepare_loops, loops_bytes});
-    add(plan, {"components", key, 1, "", prepare_components, components_bytes});
+    for (const int threads : plan.threads) {
+      add(plan, {"components", key, threads, "", prepare_components, components_bytes});
+    }
+    for (const Peer& peer : peers()) {
+      if (!peer.is_baseline) continue;
+      add(plan, {"components", key, 1, peer.name,
+                 [&peer](const Dataset& data, const Execution&) {
+                   return prepare_peer_components(data, peer);
+                 },
+                 components_bytes});
+    }
   }
 }
 

@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "hedgerow/build.h"
+#include "hedgerow/shapes.h"
 #include "support/meshes.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
+#include "support/threads.h"
 
 namespace hedgerow::test {
 namespace {
@@ -86,6 +89,42 @@ TEST(Query, KnowsTheGenusOfATorusAndOfASphere) {
   EXPECT_EQ(euler_characteristic(to_connectivity(reference_of(torus)), serial), 0);
   EXPECT_EQ(genus(to_connectivity(reference_of(tetrahedron())), serial), 0);
   EXPECT_EQ(genus(to_connectivity(reference_of(hexagon_of_triangles())), serial), 0);
+}
+
+// Every run of faces joins a part, and only the trees of all runs together join everything.
+TEST(Query, LabelsComponentsTheSameForEveryThreadCount) {
+  const Soup grid = *shapes::grid(60, 40);
+  const Soup gyroid = *shapes::generate(shapes::Shape::gyroid, 20'000);
+  const Soup fan = *shapes::fan(5000);
+  for (const Soup* soup : {&grid, &gyroid, &fan}) {
+    for (const Soup& faces : {shapes::shuffled(*soup, 1), shapes::shuffled(*soup, 2)}) {
+      const auto output = build(faces.face_list(), {}, Execution::serial());
+      ASSERT_TRUE(output);
+      const Components serial = connected_components(output->mesh);
+      for (const int count : kThreadCounts) {
+        Threads threads(count);
+        for (const Index grain : {1, 100}) {
+          const Components parallel = connected_components(output->mesh, threads.execution(grain));
+          EXPECT_EQ(to_vector(parallel.label), to_vector(serial.label)) << count;
+          EXPECT_EQ(parallel.count, serial.count) << count;
+        }
+      }
+    }
+  }
+}
+
+// Faces in an order that hangs each root below the next: were walks to the root not cut short, they
+// would be as long as the path, and this test would not end.
+TEST(Query, LabelsALongPathFromItsEnd) {
+  constexpr Index kCount = 400'000;
+  std::vector<Index> corners;
+  for (Index f = kCount - 3; f >= 0; --f) corners.insert(corners.end(), {f, f + 1, f + 2});
+  const auto faces = FaceList::triangles<Index>(corners, kCount);
+  const auto output = build(faces, {}, Execution::serial());
+  ASSERT_TRUE(output);
+  const Components components = connected_components(output->mesh);
+  EXPECT_EQ(components.count, 1);
+  EXPECT_EQ(to_vector(components.label), Numbers(at(kCount), 0));
 }
 
 TEST(Query, CountsFacesOfExactlyZeroArea) {
@@ -179,6 +218,7 @@ class QueryOracle : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(QueryOracle, AgreesOnRandomMeshesInBothFormsAndViews) {
   const Execution parallel = Execution::current_arena().with_grain(3);
+  Threads eight(8);
   for (std::uint64_t i = 0; i < 250 && !HasFailure(); ++i) {
     const std::uint64_t seed = 250 * GetParam() + i;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -192,8 +232,11 @@ TEST_P(QueryOracle, AgreesOnRandomMeshesInBothFormsAndViews) {
     expect_summary(summarise(mesh, Execution::serial()), expected);
     expect_summary(summarise(mesh, parallel), expected);
     expect_summary(summarise(closed_mesh, parallel), expected);
-    EXPECT_EQ(to_vector(connected_components(mesh).label), reference_components(open));
-    EXPECT_EQ(to_vector(connected_components(closed_mesh).label), reference_components(open));
+    const Numbers labels = reference_components(open);
+    for (const Execution& execution : {Execution::serial(), parallel, eight.execution(3)}) {
+      EXPECT_EQ(to_vector(connected_components(mesh, execution).label), labels);
+      EXPECT_EQ(to_vector(connected_components(closed_mesh, execution).label), labels);
+    }
     expect_loops(boundary_loops(mesh), boundary_loops(closed_mesh), closed);
   }
 }

@@ -26,6 +26,7 @@ class BaselineMesh final : public MeasuredMesh {
   void fill_one_ring_sums(std::span<std::uint32_t> sums) const override {
     mesh_.fill_one_ring_sums(sums);
   }
+  [[nodiscard]] Index component_count() const override { return mesh_.component_count(); }
 
   static std::unique_ptr<MeasuredMesh> build(const FaceList& faces, Positions positions) {
     return std::make_unique<BaselineMesh>(faces, positions);

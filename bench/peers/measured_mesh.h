@@ -32,6 +32,9 @@ class MeasuredMesh {
 
   /// sums[v] = sum of the ids of v's neighbours, modulo 2^32, by the library's circulator.
   virtual void fill_one_ring_sums(std::span<std::uint32_t> sums) const = 0;
+
+  /// Connected components, isolated vertices left out; the baselines only.
+  [[nodiscard]] virtual Index component_count() const { return kInvalidIndex; }
 };
 
 /// A kind of mesh to measure. `build` returns null where the library refuses the faces.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "build/duplicate_faces.h"
 #include "float3_check.h"
+#include "kernels/join_sets.h"
 #include "parallel/parallel.h"
 #include "query/edges.h"
 
@@ -42,52 +42,6 @@ BoundaryLoops find_loops(const Mesh& mesh, bool is_closed_form) {
   return {Buffer<Index>::copy_of(first), Buffer<Index>::copy_of(halfedges)};
 }
 
-// Sets of numbers whose root is the smallest one, so that the labels do not depend on the order of
-// the unions.
-class DisjointSets {
- public:
-  explicit DisjointSets(Index count) : parent_(at(count)) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index root(Index i) noexcept {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
-    return i;
-  }
-  void join(Index a, Index b) noexcept {
-    a = root(a);
-    b = root(b);
-    parent_[at(std::max(a, b))] = std::min(a, b);
-  }
-  /// Every parent becomes the root; parents come before their children.
-  Buffer<Index> take_roots() && noexcept {
-    for (Index& p : parent_) p = parent_[at(p)];
-    return std::move(parent_);
-  }
-
- private:
-  Buffer<Index> parent_;
-};
-
-template <Topology Mesh>
-Components find_components(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertex_count());
-  for (Index i = 0; i < mesh.halfedge_count(); ++i) {
-    const HalfedgeId h(i);
-    if (mesh.opposite[h].valid() && mesh.opposite[h] < h) continue;
-    sets.join(mesh.origin[h].value, mesh.target(h).value);
-  }
-  Components components{std::move(sets).take_roots(), 0};
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    Index& label = components.label[at(v)];
-    if (!mesh.outgoing[VertexId(v)].valid()) {
-      label = kInvalidIndex;
-    } else {
-      components.count += label == v;
-    }
-  }
-  return components;
-}
-
 // The fans of `v` are joined where they meet the same neighbour.
 template <Topology Mesh>
 Index count_groups(const Mesh& mesh, VertexId v, Index fan_count) {
@@ -105,12 +59,14 @@ Index count_groups(const Mesh& mesh, VertexId v, Index fan_count) {
     if (mesh.face(h).valid()) spokes.emplace_back(mesh.origin[mesh.prev(h)].value, fan);
   }
   std::sort(spokes.begin(), spokes.end());
-  DisjointSets sets(fan_count);
+  Buffer<Index> sets(at(fan_count));
+  kernels::fill_singletons({0, fan_count}, sets.data());
   for (std::size_t i = 1; i < spokes.size(); ++i) {
-    if (spokes[i].first == spokes[i - 1].first) sets.join(spokes[i].second, spokes[i - 1].second);
+    if (spokes[i].first != spokes[i - 1].first) continue;
+    kernels::join_sets(sets.data(), spokes[i].second, spokes[i - 1].second);
   }
   Index groups = 0;
-  for (Index i = 0; i < fan_count; ++i) groups += sets.root(i) == i;
+  for (Index i = 0; i < fan_count; ++i) groups += sets[at(i)] == i;
   return groups;
 }
 
@@ -194,7 +150,7 @@ Summary count_all_but_duplicates(const Connectivity& mesh, const Execution& exec
     return count_vertices(view, edges, execution);
   });
   s.isolated_vertices = vertices.isolated;
-  s.components = connected_components(mesh).count;
+  s.components = connected_components(mesh, execution).count;
   const std::int64_t used = s.vertices - s.isolated_vertices;
   s.euler = used - s.edge_counts.edges + s.faces;
   if (s.is_manifold() && s.is_oriented()) {
@@ -231,10 +187,6 @@ bool has_zero_area(const Mesh& mesh, FaceId f, Positions positions) noexcept {
 BoundaryLoops boundary_loops(const Connectivity& mesh) {
   return mesh.visit(
       [&](const auto& view) { return find_loops(view, mesh.form() == Form::closed); });
-}
-
-Components connected_components(const Connectivity& mesh) {
-  return mesh.visit([](const auto& view) { return find_components(view); });
 }
 
 EdgeCounts count_edges(const Connectivity& mesh, const Execution& execution) {

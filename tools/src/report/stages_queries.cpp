@@ -110,10 +110,14 @@ void measure_components(Stages& stages, const Subject& subject) {
   std::int64_t count = 0;
   stage.pointer_ms = time_median([&] { count += subject.pointer.component_count(); }).ms;
   stage.aos_ms = time_median([&] { count += subject.structs.component_count(); }).ms;
-  stages.measure_serial(
+  stages.measure(
       std::move(stage),
-      [&](const Execution&) { return connected_components(subject.mesh).count == expected; },
-      [&](const Execution&) { count += connected_components(subject.mesh).count; });
+      [&](const Execution& execution) {
+        return connected_components(subject.mesh, execution).count == expected;
+      },
+      [&](const Execution& execution) {
+        count += connected_components(subject.mesh, execution).count;
+      });
 }
 
 }  // namespace hedgerow::tool
