@@ -14,7 +14,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kBlock = 1 << 14;  // part of the digest's definition: another value, other digests
+constexpr Index kBlock = 1 << 14;  // part of what a digest is: D12 in engine/DESIGN.md
 
 template <class Kernel>
 std::uint64_t chain_blocks(const Execution& execution, Index count, std::uint64_t state,

@@ -1,5 +1,5 @@
-// The columns are permuted, not built again: a build would be no faster, and it would pair anew
-// what the policies of the first build have cut.
+// The columns are permuted, not built again: a build would pair anew what the policies of the first
+// build have cut, and is no faster. See D11 in engine/DESIGN.md.
 
 #include "hedgerow/reorder.h"
 
@@ -20,6 +20,7 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kGrain = 1 << 14;  // elements a task
+constexpr Index kMostScans = 4;    // at a time over one column: each thread reads all of it
 
 bool is_curve(ReorderMethod method) {
   return method == ReorderMethod::hilbert || method == ReorderMethod::morton;
@@ -142,9 +143,17 @@ class Renumbering {
   template <Topology Mesh>
   void start_fans(const Mesh& mesh) {
     outgoing_ = Buffer<Index>(static_cast<std::size_t>(mesh_.vertex_count()));
+    const Index part_count = std::min(static_cast<Index>(execution_.threads()), kMostScans);
+    par::for_each_task(execution_, part_count, [&](Index part, Index) {
+      const auto bound = [&](Index i) {
+        return static_cast<Index>(std::int64_t{mesh_.vertex_count()} * i / part_count);
+      };
+      kernels::scatter_smallest_outgoing({bound(part), bound(part + 1)}, origin_.span(),
+                                         outgoing_.data());
+    });
     par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
-      kernels::gather_outgoing(range, mesh_, mesh, order_.vertices_new_to_old.data(),
-                               halfedges_old_to_new_.data(), outgoing_.data());
+      kernels::gather_open_starts(range, mesh_, order_.vertices_new_to_old.data(),
+                                  halfedges_old_to_new_.data(), outgoing_.data());
     });
     sort_fans(mesh);
   }
@@ -164,7 +173,8 @@ class Renumbering {
     for (const FanStart& old : mesh_.fans) {
       const VertexId v(order_.vertices_old_to_new[static_cast<std::size_t>(old.vertex.value)]);
       if (old.vertex != last_old) {
-        add(v, HalfedgeId(outgoing_[static_cast<std::size_t>(v.value)]));
+        const HalfedgeId first = mesh_.outgoing[old.vertex];
+        add(v, HalfedgeId(halfedges_old_to_new_[static_cast<std::size_t>(first.value)]));
       }
       last_old = old.vertex;
       add(v, HalfedgeId(halfedges_old_to_new_[static_cast<std::size_t>(old.start.value)]));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -79,18 +81,25 @@ template <Topology Mesh>
   return fan;
 }
 
-/// `outgoing` of the new vertices in `range`, as if each had the one fan that it starts with.
-///
-/// \pre `mesh` is the new one but for its `outgoing`.
-template <Topology OldMesh, Topology Mesh>
-void gather_outgoing(IndexRange range, const OldMesh& old_mesh, const Mesh& mesh,
-                     const Index* vertices_new_to_old, const Index* halfedges_old_to_new,
-                     Index* outgoing) noexcept {
+/// outgoing[v] = the smallest half-edge that leaves v, or -1, for the vertices in `own`. Looks at
+/// all half-edges, but writes to its own vertices only.
+inline void scatter_smallest_outgoing(IndexRange own, std::span<const Index> origin,
+                                      Index* outgoing) noexcept {
+  for (Index v = own.begin; v < own.end; ++v) outgoing[v] = kInvalidIndex;
+  // From the last to the first, so that the smallest is what remains.
+  for (auto h = static_cast<Index>(origin.size()); h-- > 0;) {
+    const Index v = origin[static_cast<std::size_t>(h)];
+    if (v >= own.begin && v < own.end) outgoing[v] = h;
+  }
+}
+
+/// outgoing[v] = where the open fan starts that the old vertex started with; closed ones are left.
+template <Topology OldMesh>
+void gather_open_starts(IndexRange range, const OldMesh& old_mesh, const Index* vertices_new_to_old,
+                        const Index* halfedges_old_to_new, Index* outgoing) noexcept {
   for (Index v = range.begin; v < range.end; ++v) {
     const HalfedgeId old = old_mesh.outgoing[VertexId(vertices_new_to_old[v])];
-    outgoing[v] = old.valid()
-                      ? find_fan(mesh, HalfedgeId(halfedges_old_to_new[old.value])).start.value
-                      : kInvalidIndex;
+    if (old.valid() && is_open_start(old_mesh, old)) outgoing[v] = halfedges_old_to_new[old.value];
   }
 }
 
