@@ -1,18 +1,33 @@
 #include "progress.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include <fmt/format.h>
 
 namespace hedgerow::tool {
 namespace {
 
-constexpr auto kDelay = std::chrono::milliseconds(500);
+constexpr std::chrono::milliseconds kDelay(500);
 constexpr auto kPeriod = std::chrono::milliseconds(100);
 constexpr int kBarWidth = 24;
 
+std::chrono::milliseconds delay() {
+  const char* text = std::getenv("HEDGEROW_PROGRESS_DELAY");
+  if (text == nullptr) return kDelay;
+  int value = 0;
+  const char* end = text + std::strlen(text);
+  const auto [rest, error] = std::from_chars(text, end, value);
+  const bool is_number = error == std::errc() && rest == end && value >= 0;
+  return is_number ? std::chrono::milliseconds(value) : kDelay;
+}
+
 }  // namespace
+
+Progress::Progress(bool enabled) : enabled_(enabled), delay_(delay()) {}
 
 void Progress::begin(int step_count) {
   finish();
@@ -22,6 +37,8 @@ void Progress::begin(int step_count) {
   start_ = std::chrono::steady_clock::now();
   if (!enabled_) return;
   finished_ = false;
+  // Without a delay the bar is there even if the work is done before the thread runs.
+  if (delay_.count() == 0) draw();
   thread_ = std::thread([this] { draw_until_finished(); });
 }
 
@@ -49,12 +66,16 @@ void Progress::finish() {
 void Progress::draw_until_finished() {
   std::unique_lock lock(mutex_);
   const auto is_finished = [this] { return finished_; };
-  if (wake_.wait_for(lock, kDelay, is_finished)) return;
+  if (wake_.wait_for(lock, delay_, is_finished)) return;
   do {
-    std::fputs(line().c_str(), stderr);
-    std::fflush(stderr);
+    draw();
   } while (!wake_.wait_for(lock, kPeriod, is_finished));
   std::fputs("\r\x1b[K", stderr);
+  std::fflush(stderr);
+}
+
+void Progress::draw() const {
+  std::fputs(line().c_str(), stderr);
   std::fflush(stderr);
 }
 

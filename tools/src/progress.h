@@ -9,13 +9,14 @@
 
 namespace hedgerow::tool {
 
-/// A progress bar on standard error, drawn once the work has taken half a second and wiped at the
-/// end. Steps are counted, not timed: the bar says how many of those announced are done.
+/// A progress bar on standard error, drawn once the work has taken half a second (or as many
+/// milliseconds as the environment variable HEDGEROW_PROGRESS_DELAY says) and wiped at the end.
+/// Steps are counted, not timed: the bar says how many of those announced are done.
 ///
 /// Threads   Its own thread draws; the members are called from one thread.
 class Progress {
  public:
-  explicit Progress(bool enabled) : enabled_(enabled) {}
+  explicit Progress(bool enabled);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { finish(); }
@@ -31,9 +32,11 @@ class Progress {
 
  private:
   void draw_until_finished();
+  void draw() const;
   [[nodiscard]] std::string line() const;
 
   bool enabled_;
+  std::chrono::milliseconds delay_;
   bool finished_ = true;
   int step_count_ = 0;
   int steps_begun_ = 0;
