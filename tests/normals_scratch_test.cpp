@@ -1,38 +1,10 @@
 #include <cstdlib>
-#include <malloc.h>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/allocations.h"
 #include "support/normal_meshes.h"
-
-// Every allocation of this program, made visible: the linker sends calls of aligned_alloc, which
-// the engine's buffers use, to the first function, and the operators below stand in for the
-// library's.
-namespace {
-std::atomic<int> allocation_count = 0;
-}
-
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-extern "C" void* __real_aligned_alloc(std::size_t alignment, std::size_t bytes);
-extern "C" void* __wrap_aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++allocation_count;
-  return __real_aligned_alloc(alignment, bytes);
-}
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
-
-void* operator new(std::size_t bytes) {
-  ++allocation_count;
-  void* memory = std::malloc(bytes == 0 ? 1 : bytes);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-  ++allocation_count;
-  return std::malloc(bytes == 0 ? 1 : bytes);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace hedgerow {
 namespace {
@@ -133,12 +105,12 @@ TEST(NormalScratch, IsNotAllocatedASecondTime) {
     const NormalsOut to_faces{out.data(), soup.face_count()};
     for (const Case& c : all_cases()) {
       Workspace workspace;
-      const int at_first = allocation_count;
+      const int at_first = test::allocation_count();
       ASSERT_TRUE(call(c, soup, mesh, out, Execution::serial(), workspace));
-      EXPECT_EQ(allocation_count, at_first + 1) << "the workspace, once";
+      EXPECT_EQ(test::allocation_count(), at_first + 1) << "the workspace, once";
       ASSERT_TRUE(call(c, soup, mesh, out, Execution::serial(), workspace));
       ASSERT_TRUE(face_normals(mesh, soup.positions(), to_faces, {}, Execution::serial()));
-      EXPECT_EQ(allocation_count, at_first + 1);
+      EXPECT_EQ(test::allocation_count(), at_first + 1);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "build/input_faces.h"
 #include "build/pair.h"
 #include "build/repair.h"
+#include "build/scratch.h"
 #include "build/survey.h"
 #include "kernels/materialise.h"
 #include "parallel/parallel.h"
@@ -22,7 +23,9 @@ constexpr Index kGrain = 1 << 14;  // polygons a task
 class Builder {
  public:
   Builder(const BuildOptions& options, const Execution& execution)
-      : options_(options), execution_(execution) {}
+      : options_(options),
+        execution_(execution),
+        scratch_(options.workspace != nullptr ? options.workspace->scratch() : own_scratch_) {}
 
   Result<void> run(const FaceList& list) {
     faces_ = detail::take_faces(list, options_.borrow_corners, execution_);
@@ -76,12 +79,12 @@ class Builder {
 
  private:
   Result<void> check_single_faces(const FaceList& list) {
-    survey_ = detail::survey(faces_.columns(), execution_);
+    survey_ = detail::survey(faces_.columns(), scratch_, execution_);
     if (survey_.check.bad_count == 0 && survey_.check.large_count == 0) return {};
     if (auto ok = detail::repair_single_faces(faces_, list, options_.policies, defects_); !ok) {
       return ok;
     }
-    if (!defects_.empty()) survey_ = detail::survey(faces_.columns(), execution_);
+    if (!defects_.empty()) survey_ = detail::survey(faces_.columns(), scratch_, execution_);
     return {};
   }
 
@@ -126,7 +129,7 @@ class Builder {
       for (std::uint8_t& m : marked) m = m == 0;
       detail::drop_faces(faces_, marked);
     }
-    survey_ = detail::survey(faces_.columns(), execution_);
+    survey_ = detail::survey(faces_.columns(), scratch_, execution_);
   }
 
   void pair() {
@@ -138,7 +141,7 @@ class Builder {
     }
     paired_ = detail::pair_halfedges(columns, survey_,
                                      cut_halfedges.empty() ? nullptr : cut_halfedges.data(),
-                                     options_.strategy, execution_);
+                                     options_.strategy, scratch_, execution_);
   }
 
   // The table speaks of the input: what later rounds of a policy meet is not added.
@@ -189,12 +192,14 @@ class Builder {
   }
 
   void pair_again() {
-    survey_ = detail::survey(faces_.columns(), execution_);
+    survey_ = detail::survey(faces_.columns(), scratch_, execution_);
     pair();
   }
 
   const BuildOptions& options_;
   const Execution& execution_;
+  detail::BuildScratch own_scratch_;
+  detail::BuildScratch& scratch_;
   detail::InputFaces faces_;
   detail::Survey survey_;
   detail::PairOutput paired_;
@@ -214,6 +219,11 @@ Result<void> check_policies(const Policies& policies) {
 }
 
 }  // namespace
+
+BuildWorkspace::BuildWorkspace() : scratch_(std::make_unique<detail::BuildScratch>()) {}
+BuildWorkspace::BuildWorkspace(BuildWorkspace&&) noexcept = default;
+BuildWorkspace& BuildWorkspace::operator=(BuildWorkspace&&) noexcept = default;
+BuildWorkspace::~BuildWorkspace() = default;
 
 bool is_supported(DefectKind kind, Action action) noexcept {
   using enum Action;

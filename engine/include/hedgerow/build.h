@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "hedgerow/buffer.h"
 #include "hedgerow/connectivity.h"
@@ -19,6 +20,29 @@ enum class BuildStrategy : std::uint8_t {
   partition,  ///< corners are first partitioned by block of vertices: any input
 };
 
+namespace detail {
+struct BuildScratch;
+}
+
+/// Memory that one build leaves for the next, so that a second build of the same size and threads
+/// allocates nothing but its result.
+///
+/// Threads    One build at a time.
+/// Lifetime   Holds nothing that a result refers to: it may go before or after.
+class BuildWorkspace {
+ public:
+  BuildWorkspace();
+  BuildWorkspace(BuildWorkspace&&) noexcept;
+  BuildWorkspace& operator=(BuildWorkspace&&) noexcept;
+  ~BuildWorkspace();
+
+  /// For `build` alone. \pre not moved from
+  [[nodiscard]] detail::BuildScratch& scratch() const noexcept { return *scratch_; }
+
+ private:
+  std::unique_ptr<detail::BuildScratch> scratch_;
+};
+
 struct BuildOptions {
   Policies policies{};
   /// View the caller's corner (and offset) arrays as the `origin` (and `first`) column instead of
@@ -26,6 +50,8 @@ struct BuildOptions {
   /// not `FaceList::is_native`, or a policy changed the face list.
   bool borrow_corners = false;
   BuildStrategy strategy = BuildStrategy::automatic;
+  /// Scratch memory to use and to grow; null: the build brings its own and frees it.
+  BuildWorkspace* workspace = nullptr;
 };
 
 /// What the build counted, beside the defects.
@@ -64,7 +90,7 @@ struct BuildOutput {
 ///            the smallest half-edge leaving v: at the end of the fan if the fan is open, at that
 ///            half-edge if it is closed.
 /// Complexity O(V + H), whatever the valences. Bytes: reads 4 H (twice when the input is local),
-///            writes 4 H + 4 V; scratch 16 H more when it is not.
+///            writes 4 H + 4 V; scratch 16 H more when it is not (20 H of polygons).
 /// Errors     What `check(FaceList)` finds, unsupported_policy, and the first defect whose policy
 ///            is `fail`. Throws std::bad_alloc. On either, nothing has happened.
 /// Threads    Those of `execution`; same bytes for all of them.

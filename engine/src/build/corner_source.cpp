@@ -15,15 +15,17 @@ constexpr Index kMinFacesPerChunk = 1 << 14;
 
 }  // namespace
 
-PartitionSource::PartitionSource(const kernels::FaceColumns& faces, const Blocks& blocks,
-                                 const Execution& execution)
-    : first_(static_cast<std::size_t>(blocks.count) + 1),
-      loose_(static_cast<std::size_t>(faces.halfedge_count())) {
+template <class Loose>
+PartitionSource<Loose>::PartitionSource(const kernels::FaceColumns& faces, const Blocks& blocks,
+                                        std::span<Loose> memory, BuildScratch& scratch,
+                                        const Execution& execution)
+    : first_(grown(scratch.loose_first, blocks.count + 1)), loose_(memory) {
   const Index wanted = faces.face_count / kMinFacesPerChunk;
   const Index chunk_count = std::clamp(wanted, Index{1}, kMaxChunks);
   const Index length = (faces.face_count + chunk_count - 1) / chunk_count;
   const auto row = static_cast<std::size_t>(blocks.count);
-  Buffer<Index> ends(row * static_cast<std::size_t>(chunk_count), Index{0});
+  const std::span<Index> ends = grown(scratch.chunk_ends, blocks.count * chunk_count);
+  std::fill(ends.begin(), ends.end(), Index{0});
   const auto chunk = [&](Index c) {
     return IndexRange{std::min(faces.face_count, c * length),
                       std::min(faces.face_count, (c + 1) * length)};
@@ -43,6 +45,9 @@ PartitionSource::PartitionSource(const kernels::FaceColumns& faces, const Blocks
     kernels::partition_corners(chunk(c), faces, blocks.shift, row_of(c), loose_.data());
   });
 }
+
+template class PartitionSource<kernels::LooseCorner>;
+template class PartitionSource<kernels::LooseTriangleCorner>;
 
 FaceId face_of(const kernels::FaceColumns& faces, HalfedgeId h) noexcept {
   if (faces.is_triangles()) return FaceId(h.value / 3);

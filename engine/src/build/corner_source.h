@@ -13,8 +13,8 @@ namespace hedgerow::detail {
 /// blocks is read for each: right for inputs whose order is local.
 class WindowSource {
  public:
-  WindowSource(const kernels::FaceColumns& faces, const Survey& survey)
-      : faces_(faces), runs_of_faces_(survey.runs.span()), runs_(runs_of_blocks(survey)) {}
+  WindowSource(const kernels::FaceColumns& faces, const Survey& survey, BuildScratch& scratch)
+      : faces_(faces), runs_of_faces_(survey.runs), runs_(runs_of_blocks(survey, scratch)) {}
 
   [[nodiscard]] Index limit(Index b) const noexcept {
     Index corners = 0;
@@ -49,12 +49,14 @@ class WindowSource {
   BlockRuns runs_;
 };
 
-/// Partitions all corners by block first. Reads the faces twice and writes 20 bytes a corner, in
-/// any order of the input.
+/// Partitions all corners by block first. Reads the faces twice and writes 16 bytes a corner, 20 of
+/// polygons, in any order of the input.
+template <class Loose>
 class PartitionSource {
  public:
-  PartitionSource(const kernels::FaceColumns& faces, const Blocks& blocks,
-                  const Execution& execution);
+  /// `memory` has room for all corners.
+  PartitionSource(const kernels::FaceColumns& faces, const Blocks& blocks, std::span<Loose> memory,
+                  BuildScratch& scratch, const Execution& execution);
 
   [[nodiscard]] Index limit(Index b) const noexcept {
     return static_cast<Index>(corners_of(b).size());
@@ -64,14 +66,14 @@ class PartitionSource {
   }
 
  private:
-  [[nodiscard]] std::span<const kernels::LooseCorner> corners_of(Index b) const noexcept {
+  [[nodiscard]] std::span<const Loose> corners_of(Index b) const noexcept {
     const auto block = static_cast<std::size_t>(b);
     const auto begin = static_cast<std::size_t>(first_[block]);
-    return loose_.span().subspan(begin, static_cast<std::size_t>(first_[block + 1]) - begin);
+    return loose_.subspan(begin, static_cast<std::size_t>(first_[block + 1]) - begin);
   }
 
-  Buffer<Index> first_;
-  Buffer<kernels::LooseCorner> loose_;
+  std::span<Index> first_;
+  std::span<Loose> loose_;
 };
 
 /// The face of a half-edge: arithmetic for triangles, a binary search for polygons.

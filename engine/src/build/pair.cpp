@@ -19,68 +19,23 @@ namespace {
 // Above this many scans a face it is cheaper to partition all corners first; PERF.md, "Decisions".
 constexpr std::int64_t kMaxScanPerMille = 20'000;
 
-// What one worker needs for one block at a time; grows and stays.
-struct Scratch {
-  Buffer<kernels::CornerSlot> slots;
-  Buffer<Index> counts;
-  Buffer<Index> irregular;
-  Buffer<Index> large_ends;
-  Buffer<kernels::LooseCorner> overflow;
-  Buffer<kernels::Corner> large;
-  std::vector<kernels::Spoke> spokes;
-  std::vector<Index> links;
-  std::vector<Defect> defects;
-  std::vector<FanStart> fans;
-
-  kernels::CornerSlots slots_for(kernels::VertexBlock block, Index corner_limit) {
-    grow(slots, block.size);
-    grow(counts, block.size);
-    grow(irregular, block.size);
-    grow(large_ends, block.size);
-    grow(overflow, corner_limit);
-    kernels::CornerSlots result{block, slots.data(), counts.data(), overflow.data()};
-    kernels::clear_slots(result);
-    return result;
-  }
-
-  [[nodiscard]] kernels::IrregularScratch scratch_for(std::size_t k) {
-    spokes.resize(std::max(spokes.size(), 4 * k));
-    links.resize(std::max(links.size(), 3 * k));
-    defects.resize(std::max(defects.size(), 2 * k + 1));
-    fans.resize(std::max(fans.size(), k));
-    const std::span<Index> all(links);
-    return {std::span(spokes).first(4 * k), all.first(k), all.subspan(k, k),
-            all.subspan(2 * k, k),          defects,      fans};
-  }
-
-  template <class T>
-  static void grow(Buffer<T>& buffer, Index needed) {
-    const auto size = static_cast<std::size_t>(needed);
-    if (buffer.size() < size) buffer = Buffer<T>(size);
-  }
-};
-
-// What a block found that most blocks do not.
-struct BlockFindings {
-  kernels::LinkStats stats;
-  std::vector<Defect> defects;
-  std::vector<FanStart> fans;
-};
-
 class Pairing {
  public:
   Pairing(const kernels::FaceColumns& faces, const std::uint8_t* is_cut, PairOutput& output)
       : faces_(faces), is_cut_(is_cut), output_(output) {}
 
   template <class Source>
-  void run(const Source& source, const Blocks& blocks, const Execution& execution) {
-    const auto slots = static_cast<std::size_t>(par::slot_count(execution, blocks.count));
-    std::vector<Scratch> scratch(slots);
-    std::vector<BlockFindings> findings(static_cast<std::size_t>(blocks.count));
+  void run(const Source& source, const Blocks& blocks, BuildScratch& scratch,
+           const Execution& execution) {
+    const auto workers = static_cast<std::size_t>(par::slot_count(execution, blocks.count));
+    if (scratch.workers.size() < workers) scratch.workers.resize(workers);
+    const auto block_count = static_cast<std::size_t>(blocks.count);
+    if (scratch.findings.size() < block_count) scratch.findings.resize(block_count);
+    const std::span<BlockFindings> findings = std::span(scratch.findings).first(block_count);
     par::for_each_task(execution, blocks.count, [&](Index b, Index s) {
       const Index begin = blocks.begin(b);
       const Index size = std::min(Index{1} << blocks.shift, faces_.vertex_count - begin);
-      link_block(source, b, {begin, size}, scratch[static_cast<std::size_t>(s)],
+      link_block(source, b, {begin, size}, scratch.workers[static_cast<std::size_t>(s)],
                  findings[static_cast<std::size_t>(b)]);
     });
     for (const BlockFindings& f : findings) {
@@ -92,14 +47,15 @@ class Pairing {
 
  private:
   template <class Source>
-  void link_block(const Source& source, Index b, kernels::VertexBlock block, Scratch& scratch,
+  void link_block(const Source& source, Index b, kernels::VertexBlock block, WorkerScratch& scratch,
                   BlockFindings& findings) {
+    findings.clear();
     kernels::CornerSlots slots = scratch.slots_for(block, source.limit(b));
     source.place(b, slots);
     findings.stats = link_regular(slots, scratch);
     if (slots.overflow_count > 0) {
-      Scratch::grow(scratch.large, kernels::count_large(slots));
-      kernels::gather_large(slots, scratch.large.data(), scratch.large_ends.data());
+      const std::span<kernels::Corner> large = grown(scratch.large, kernels::count_large(slots));
+      kernels::gather_large(slots, large.data(), scratch.large_ends.data());
       findings.stats.step_count += slots.overflow_count;
     }
     for (Index i = 0; i < findings.stats.irregular_count; ++i) {
@@ -109,7 +65,7 @@ class Pairing {
 
   // With half-edges cut, the vertices at them are irregular in ways that only the general path
   // knows: all go there.
-  kernels::LinkStats link_regular(const kernels::CornerSlots& slots, Scratch& scratch) {
+  kernels::LinkStats link_regular(const kernels::CornerSlots& slots, WorkerScratch& scratch) {
     if (is_cut_ == nullptr) {
       return kernels::link_vertices(slots, output_.opposite.data(), output_.outgoing.data(),
                                     scratch.irregular.data());
@@ -124,7 +80,7 @@ class Pairing {
   }
 
   // A vertex that is not one small closed fan, as almost all others are.
-  void link_other(Index v, const kernels::CornerSlots& slots, Scratch& scratch,
+  void link_other(Index v, const kernels::CornerSlots& slots, WorkerScratch& scratch,
                   BlockFindings& findings) {
     const Index i = v - slots.block.begin;
     const Index k = slots.count[i];
@@ -152,10 +108,10 @@ class Pairing {
   }
 
   void link_irregular(VertexId v, std::span<const kernels::Corner> corners, Index& outgoing,
-                      Scratch& scratch, BlockFindings& findings) {
+                      WorkerScratch& scratch, BlockFindings& findings) {
     const auto result =
         kernels::link_irregular(v, corners, faces_.is_triangles(), is_cut_, output_.opposite.data(),
-                                outgoing, scratch.scratch_for(corners.size()));
+                                outgoing, scratch.irregular_for(corners.size()));
     findings.stats = findings.stats + result.stats;
     findings.defects.insert(findings.defects.end(), scratch.defects.begin(),
                             scratch.defects.begin() + result.defect_count);
@@ -181,7 +137,7 @@ void sort_defects(std::vector<Defect>& defects) {
 }
 
 PairOutput pair_halfedges(const kernels::FaceColumns& faces, const Survey& survey,
-                          const std::uint8_t* is_cut, BuildStrategy strategy,
+                          const std::uint8_t* is_cut, BuildStrategy strategy, BuildScratch& scratch,
                           const Execution& execution) {
   PairOutput output;
   output.opposite = Buffer<Index>(static_cast<std::size_t>(faces.halfedge_count()));
@@ -193,9 +149,16 @@ PairOutput pair_halfedges(const kernels::FaceColumns& faces, const Survey& surve
   output.strategy = strategy;
   Pairing pairing(faces, is_cut, output);
   if (strategy == BuildStrategy::window) {
-    pairing.run(WindowSource(faces, survey), survey.blocks, execution);
+    const WindowSource source(faces, survey, scratch);
+    pairing.run(source, survey.blocks, scratch, execution);
+  } else if (faces.is_triangles()) {
+    const std::span memory = grown(scratch.loose_triangles, faces.halfedge_count());
+    const PartitionSource source(faces, survey.blocks, memory, scratch, execution);
+    pairing.run(source, survey.blocks, scratch, execution);
   } else {
-    pairing.run(PartitionSource(faces, survey.blocks, execution), survey.blocks, execution);
+    const std::span memory = grown(scratch.loose, faces.halfedge_count());
+    const PartitionSource source(faces, survey.blocks, memory, scratch, execution);
+    pairing.run(source, survey.blocks, scratch, execution);
   }
   for (Defect& defect : output.defects) {
     if (!defect.halfedge.valid()) continue;

@@ -23,7 +23,7 @@ struct PairOutput {
 /// \pre every face is good: `survey(faces).check.bad_count == 0`.
 [[nodiscard]] PairOutput pair_halfedges(const kernels::FaceColumns& faces, const Survey& survey,
                                         const std::uint8_t* is_cut, BuildStrategy strategy,
-                                        const Execution& execution);
+                                        BuildScratch& scratch, const Execution& execution);
 
 /// By kind, and within a kind by the element that names the defect.
 void sort_defects(std::vector<Defect>& defects);

@@ -36,16 +36,18 @@ Blocks blocks_of(const kernels::FaceColumns& faces) noexcept {
   return {shift, ((faces.vertex_count - 1) >> shift) + 1};
 }
 
-Survey survey(const kernels::FaceColumns& faces, const Execution& execution) {
+Survey survey(const kernels::FaceColumns& faces, BuildScratch& scratch,
+              const Execution& execution) {
   Survey result;
   result.blocks = blocks_of(faces);
   const Index run_count = (faces.face_count + Survey::kRunLength - 1) / Survey::kRunLength;
-  result.runs = Buffer<kernels::RunBlocks>(static_cast<std::size_t>(run_count));
+  const std::span<kernels::RunBlocks> runs = grown(scratch.runs, run_count);
+  result.runs = runs;
   result.check = par::reduce<kernels::FaceCheck>(
       execution, run_count, kGrain,
       [&](IndexRange range) {
         return kernels::check_runs(range, faces, Survey::kRunLength, result.blocks.shift,
-                                   result.runs.data());
+                                   runs.data());
       },
       [](kernels::FaceCheck a, kernels::FaceCheck b) { return a + b; });
   std::int64_t scanned = 0;
@@ -58,23 +60,23 @@ Survey survey(const kernels::FaceColumns& faces, const Execution& execution) {
   return result;
 }
 
-BlockRuns runs_of_blocks(const Survey& survey) {
+BlockRuns runs_of_blocks(const Survey& survey, BuildScratch& scratch) {
   const Index block_count = survey.blocks.count;
-  BlockRuns result;
-  result.first = Buffer<Index>(static_cast<std::size_t>(block_count) + 1, Index{0});
+  const std::span<Index> first = grown(scratch.block_runs_first, block_count + 1);
+  std::fill(first.begin(), first.end(), Index{0});
   for (const kernels::RunBlocks& run : survey.runs) {
-    for_each_block(run, block_count, [&](Index b) { ++result.first[static_cast<std::size_t>(b)]; });
+    for_each_block(run, block_count, [&](Index b) { ++first[static_cast<std::size_t>(b)]; });
   }
-  const Index total = kernels::exclusive_scan(result.first.data(), block_count + 1);
-  result.runs = Buffer<Index>(static_cast<std::size_t>(total));
-  Buffer<Index> ends = Buffer<Index>::copy_of(result.first.span());
+  const Index total = kernels::exclusive_scan(first.data(), block_count + 1);
+  const std::span<Index> runs = grown(scratch.block_runs, total);
+  const std::span<Index> end = grown(scratch.block_runs_end, block_count + 1);
+  std::copy(first.begin(), first.end(), end.begin());
   for (std::size_t r = 0; r < survey.runs.size(); ++r) {
     for_each_block(survey.runs[r], block_count, [&](Index b) {
-      result.runs[static_cast<std::size_t>(ends[static_cast<std::size_t>(b)]++)] =
-          static_cast<Index>(r);
+      runs[static_cast<std::size_t>(end[static_cast<std::size_t>(b)]++)] = static_cast<Index>(r);
     });
   }
-  return result;
+  return {first, runs};
 }
 
 }  // namespace hedgerow::detail

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "hedgerow/buffer.h"
+#include "build/scratch.h"
 #include "hedgerow/execution.h"
 #include "kernels/check_faces.h"
 #include "kernels/face_columns.h"
@@ -26,19 +27,20 @@ struct Survey {
 
   kernels::FaceCheck check;
   Blocks blocks;
-  Buffer<kernels::RunBlocks> runs;
+  std::span<const kernels::RunBlocks> runs;  ///< in the scratch memory
   /// Faces that all blocks would scan together, per face, times 1000: 1000 is a perfect order.
   std::int64_t scan_per_mille = 0;
 };
 
-[[nodiscard]] Survey survey(const kernels::FaceColumns& faces, const Execution& execution);
+[[nodiscard]] Survey survey(const kernels::FaceColumns& faces, BuildScratch& scratch,
+                            const Execution& execution);
 
 /// The survey the other way round: for each block, the runs that touch it, ascending.
 struct BlockRuns {
-  Buffer<Index> first;  ///< blocks + 1
-  Buffer<Index> runs;
+  std::span<const Index> first;  ///< blocks + 1
+  std::span<const Index> runs;
 };
 
-[[nodiscard]] BlockRuns runs_of_blocks(const Survey& survey);
+[[nodiscard]] BlockRuns runs_of_blocks(const Survey& survey, BuildScratch& scratch);
 
 }  // namespace hedgerow::detail

@@ -16,6 +16,13 @@ void partition_corners(IndexRange range, const FaceColumns& faces, int block_shi
   });
 }
 
+void partition_corners(IndexRange range, const FaceColumns& faces, int block_shift, Index* ends,
+                       LooseTriangleCorner* loose) noexcept {
+  for_each_corner(range, faces, [&](Index v, const Corner& corner) {
+    loose[ends[v >> block_shift]++] = {v, corner.halfedge, corner.target, corner.source};
+  });
+}
+
 Index exclusive_scan(Index* counts, Index n) noexcept {
   Index sum = 0;
   for (Index i = 0; i < n; ++i) {

@@ -43,6 +43,15 @@ void place_loose(std::span<const LooseCorner> loose, CornerSlots& slots) noexcep
   slots.overflow_count = to.overflow_count;
 }
 
+void place_loose(std::span<const LooseTriangleCorner> loose, CornerSlots& slots) noexcept {
+  CornerSlots to = slots;
+  for (const LooseTriangleCorner& l : loose) {
+    const Index incoming = l.halfedge % 3 == 0 ? l.halfedge + 2 : l.halfedge - 1;
+    add_corner(l.vertex, {l.halfedge, l.target, l.source, incoming}, to);
+  }
+  slots.overflow_count = to.overflow_count;
+}
+
 Index count_large(const CornerSlots& slots) noexcept {
   Index sum = 0;
   for (Index i = 0; i < slots.block.size; ++i) {

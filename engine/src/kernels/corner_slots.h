@@ -73,6 +73,7 @@ void place_triangles_avx2(IndexRange range, const FaceColumns& faces, CornerSlot
 
 /// The same for loose corners, which all belong to the block.
 void place_loose(std::span<const LooseCorner> loose, CornerSlots& slots) noexcept;
+void place_loose(std::span<const LooseTriangleCorner> loose, CornerSlots& slots) noexcept;
 
 /// How many corners the vertices with more than a slot have together.
 [[nodiscard]] Index count_large(const CornerSlots& slots) noexcept;
