@@ -11,25 +11,52 @@ namespace hedgerow::kernels {
 
 namespace {
 
-void add(VertexSum& sum, __m128 term) noexcept {
-  auto* p = reinterpret_cast<float*>(&sum);
-  _mm_store_ps(p, _mm_add_ps(_mm_load_ps(p), term));
+constexpr int kGroup = 8;  // triangles
+
+// Where the sums of the corners of eight triangles stand, in floats from the first of the block.
+struct Places {
+  alignas(32) int at[3][kGroup];
+  unsigned inside[3];  // bit i: corner k of triangle i is in the block
+
+  Places(const Corners8& c, const SumBlock& block) noexcept {
+    const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
+    const __m256i last = _mm256_set1_epi32(static_cast<int>(block.size - 1));
+    for (int k = 0; k < 3; ++k) {
+      const __m256i local = _mm256_sub_epi32(c.corner[k], begin);
+      const __m256i is_inside = _mm256_cmpeq_epi32(_mm256_min_epu32(local, last), local);
+      inside[k] = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_inside)));
+      _mm256_store_si256(reinterpret_cast<__m256i*>(at[k]), _mm256_slli_epi32(local, 2));
+    }
+  }
+  [[nodiscard]] bool all_inside() const noexcept {
+    return (inside[0] & inside[1] & inside[2]) == 0xff;
+  }
+  [[nodiscard]] bool none_inside() const noexcept {
+    return (inside[0] | inside[1] | inside[2]) == 0;
+  }
+};
+
+void add(float* sum, __m128 term) noexcept {
+  _mm_store_ps(sum, _mm_add_ps(_mm_load_ps(sum), term));
 }
 
-template <NormalWeight W, bool kInside>
+template <NormalWeight W>
 void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
              const SumBlock& block) noexcept {
   constexpr bool kOneTerm = W == NormalWeight::area || W == NormalWeight::uniform;
   const __m256i stride = stride_of(input.points);
+  auto* sums = reinterpret_cast<float*>(block.sums);
   Index f = range.begin;
-  for (; f + 8 <= range.end; f += 8, corners += 24) {
+  for (; f + kGroup <= range.end; f += kGroup, corners += 3 * kGroup) {
     const Corners8 c = load_triangles(corners);
+    const Places places(c, block);
+    if (places.none_inside()) continue;
     TriangleTerms<Float8> terms;
     const Mask8 usual = triangle_terms<W>(load_points(input.points, c.corner[0], stride),
                                           load_points(input.points, c.corner[1], stride),
                                           load_points(input.points, c.corner[2], stride), terms);
     if (usual.lanes() != 0xff) [[unlikely]] {
-      scatter_triangles_scalar({f, f + 8}, corners, input, block, kInside);
+      scatter_triangles_scalar({f, f + kGroup}, corners, input, block, false);
       continue;
     }
     Rows8 rows[3];
@@ -38,14 +65,15 @@ void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
       rows[1] = to_rows(corner_term<W>(terms, terms.factor[1]), 1);
       rows[2] = to_rows(corner_term<W>(terms, terms.factor[2]), 1);
     }
-    for (int i = 0; i < 8; ++i) {
+    const bool all_inside = places.all_inside();
+    for (int i = 0; i < kGroup; ++i) {
       for (int k = 0; k < 3; ++k) {
-        const Index v = corners[3 * i + k];
-        if (kInside || block.holds(v)) add(block[v], rows[kOneTerm ? 0 : k].row[i]);
+        if (!all_inside && (places.inside[k] >> i & 1) == 0) continue;
+        add(sums + places.at[k][i], rows[kOneTerm ? 0 : k].row[i]);
       }
     }
   }
-  scatter_triangles_scalar({f, range.end}, corners, input, block, kInside);
+  scatter_triangles_scalar({f, range.end}, corners, input, block, false);
 }
 
 // The sums of eight vertices, in lanes: lane i is vertex i.
@@ -66,11 +94,8 @@ Vec3<Float8> load_sums(const VertexSum* sums) noexcept {
 }  // namespace
 
 void scatter_triangles_avx2(IndexRange range, const Index* corners, const ScatterInput& input,
-                            const SumBlock& block, bool is_inside) noexcept {
-  with_weight(input.weight, [&](auto weight) {
-    is_inside ? scatter<weight(), true>(range, corners, input, block)
-              : scatter<weight(), false>(range, corners, input, block);
-  });
+                            const SumBlock& block, bool) noexcept {
+  with_weight(input.weight, [&](auto weight) { scatter<weight()>(range, corners, input, block); });
 }
 
 NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
