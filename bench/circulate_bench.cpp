@@ -1,5 +1,6 @@
 // hedgerow/circulate.h: the sum of the neighbours' ids for every vertex, by the range that a caller
-// would use, over computed and over stored `next` and `face`, and written out by hand.
+// would use, over computed and over stored `next` and `face`, and written out by hand; and by the
+// pass over the half-edges for callers to whom the order round a vertex is nothing.
 #include <memory>
 
 #include <tbb/blocked_range.h>
@@ -111,6 +112,22 @@ Work prepare_engine(const Dataset& data, const Execution& execution, const Sum& 
   return work;
 }
 
+Work prepare_pass(const Dataset& data, const Execution&) {
+  auto sums = std::make_shared<std::vector<std::uint32_t>>();
+  Work work;
+  work.run = [&data, sums] {
+    sums->assign(static_cast<std::size_t>(data.mesh.vertex_count()), 0U);
+    data.mesh.visit([&](const auto& view) {
+      for_each_neighbour(view, {0, view.halfedge_count()}, [&](VertexId v, VertexId u) {
+        (*sums)[static_cast<std::size_t>(v.value)] += static_cast<std::uint32_t>(u.value);
+      });
+    });
+  };
+  work.run();
+  work.error = compare(*sums, data);
+  return work;
+}
+
 Work prepare_peer(const Dataset& data, const Peer& peer) {
   const auto mesh = built_mesh(peer, data.faces(), data.positions());
   Work work;
@@ -152,6 +169,7 @@ void add_circulate(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     add_engine(plan, key, ByHand{}, false, "by-hand");
     add_engine(plan, key, ByRange{}, true, "explicit");
+    add(plan, {"one_ring", key, 1, "pass", prepare_pass, compulsory_bytes});
     for (const Peer& peer : peers()) {
       add(plan,
           {"one_ring", key, 1, peer.name,

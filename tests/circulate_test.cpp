@@ -101,6 +101,10 @@ void expect_one_rings(const View& view, const ReferenceMesh& mesh) {
     // An edge without a half-edge in the other direction is met from its end, too.
     if (mesh.opposite[at(h)] == kInvalidIndex) others[others[v].back()].push_back(v);
   }
+  std::map<Index, Numbers> passed;
+  for_each_neighbour(view, {0, view.halfedge_count()},
+                     [&](VertexId v, VertexId u) { passed[v.value].push_back(u.value); });
+  EXPECT_EQ(passed, others);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     EXPECT_EQ(sorted(numbers(outgoing_halfedges(view, VertexId(v)))), leaving[v]);
     EXPECT_EQ(sorted(numbers(incident_faces(view, VertexId(v)))), sorted(faces[v]));

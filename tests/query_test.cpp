@@ -231,6 +231,7 @@ TEST_P(QueryOracle, AgreesOnRandomMeshesInBothFormsAndViews) {
     const ReferenceSummary expected = reference_summary(open);
     expect_summary(summarise(mesh, Execution::serial()), expected);
     expect_summary(summarise(mesh, parallel), expected);
+    expect_summary(summarise(mesh, eight.execution(3)), expected);
     expect_summary(summarise(closed_mesh, parallel), expected);
     const Numbers labels = reference_components(open);
     for (const Execution& execution : {Execution::serial(), parallel, eight.execution(3)}) {

@@ -8,6 +8,7 @@
 #include "build/duplicate_faces.h"
 #include "float3_check.h"
 #include "kernels/join_sets.h"
+#include "kernels/scatter_valences.h"
 #include "parallel/parallel.h"
 #include "query/edges.h"
 
@@ -16,6 +17,7 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kGrain = 1 << 14;  // vertices or faces a task
+constexpr Index kShare = 1 << 18;  // half-edges that are worth a thread's array of all vertices
 
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -102,6 +104,26 @@ Index distinct_valence(const Mesh& mesh, VertexId v) {
   return static_cast<Index>(std::unique(found.begin(), found.end()) - found.begin());
 }
 
+// Each thread counts at the ends of its share of the half-edges.
+template <Topology Mesh>
+Buffer<Index> count_neighbours(const Mesh& mesh, const Execution& execution) {
+  const Index share_count = par::share_count(execution, mesh.halfedge_count(), kShare);
+  std::vector<Buffer<Index>> counts;
+  for (Index i = 0; i < share_count; ++i) counts.emplace_back(at(mesh.vertex_count()));
+  par::for_each_task(execution, share_count, [&](Index share, Index) {
+    Buffer<Index>& count = counts[at(share)];
+    std::fill(count.begin(), count.end(), Index{0});
+    const IndexRange halfedges = par::share_of(share, share_count, mesh.halfedge_count());
+    kernels::scatter_valences(halfedges, mesh, count.data());
+  });
+  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+    for (Index i = 1; i < share_count; ++i) {
+      kernels::gather_valences(range, counts[at(i)].data(), counts[0].data());
+    }
+  });
+  return std::move(counts[0]);
+}
+
 template <Topology Mesh>
 VertexCounts count_vertices(const Mesh& mesh, const detail::EdgeSurvey& edges,
                             const Execution& execution) {
@@ -110,6 +132,7 @@ VertexCounts count_vertices(const Mesh& mesh, const detail::EdgeSurvey& edges,
     if (edge.halfedge_count() < 2) continue;
     may_repeat[at(edge.ends.a)] = may_repeat[at(edge.ends.b)] = 1;
   }
+  const Buffer<Index> valences = count_neighbours(mesh, execution);
   return par::reduce<VertexCounts>(
       execution, mesh.vertex_count(), kGrain,
       [&](IndexRange range) {
@@ -120,7 +143,7 @@ VertexCounts count_vertices(const Mesh& mesh, const detail::EdgeSurvey& edges,
             ++counts.isolated;
             continue;
           }
-          const Index k = may_repeat[at(i)] != 0 ? distinct_valence(mesh, v) : valence(mesh, v);
+          const Index k = may_repeat[at(i)] != 0 ? distinct_valence(mesh, v) : valences[at(i)];
           counts.min_valence = std::min(counts.min_valence, k);
           counts.max_valence = std::max(counts.max_valence, k);
         }

@@ -20,7 +20,7 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kGrain = 1 << 14;  // elements a task
-constexpr Index kMostScans = 4;    // at a time over one column: each thread reads all of it
+constexpr Index kShare = 1 << 18;  // half-edges that are worth a thread's array of all vertices
 
 bool is_curve(ReorderMethod method) {
   return method == ReorderMethod::hilbert || method == ReorderMethod::morton;
@@ -140,17 +140,31 @@ class Renumbering {
     });
   }
 
+  // Each thread looks at its share of the half-edges, and the first share that knows a vertex has
+  // its smallest one.
+  void find_smallest_outgoing() {
+    const Index share_count = par::share_count(execution_, mesh_.halfedge_count(), kShare);
+    std::vector<Buffer<Index>> smallest;
+    for (Index i = 0; i < share_count; ++i) {
+      smallest.emplace_back(static_cast<std::size_t>(mesh_.vertex_count()));
+    }
+    par::for_each_task(execution_, share_count, [&](Index share, Index) {
+      Buffer<Index>& own = smallest[static_cast<std::size_t>(share)];
+      std::fill(own.begin(), own.end(), kInvalidIndex);
+      const IndexRange halfedges = par::share_of(share, share_count, mesh_.halfedge_count());
+      kernels::scatter_smallest_outgoing(halfedges, origin_.data(), own.data());
+    });
+    par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
+      for (std::size_t i = 1; i < smallest.size(); ++i) {
+        kernels::gather_missing_outgoing(range, smallest[i].data(), smallest[0].data());
+      }
+    });
+    outgoing_ = std::move(smallest[0]);
+  }
+
   template <Topology Mesh>
   void start_fans(const Mesh& mesh) {
-    outgoing_ = Buffer<Index>(static_cast<std::size_t>(mesh_.vertex_count()));
-    const Index part_count = std::min(static_cast<Index>(execution_.threads()), kMostScans);
-    par::for_each_task(execution_, part_count, [&](Index part, Index) {
-      const auto bound = [&](Index i) {
-        return static_cast<Index>(std::int64_t{mesh_.vertex_count()} * i / part_count);
-      };
-      kernels::scatter_smallest_outgoing({bound(part), bound(part + 1)}, origin_.span(),
-                                         outgoing_.data());
-    });
+    find_smallest_outgoing();
     par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
       kernels::gather_open_starts(range, mesh_, order_.vertices_new_to_old.data(),
                                   halfedges_old_to_new_.data(), outgoing_.data());

@@ -316,6 +316,25 @@ template <Topology Mesh>
   return Circulation(detail::LoopState<Mesh, true>(mesh, h));
 }
 
+/// Calls `visit(v, u)` for the vertices v of a mesh and the neighbours u of each, as often as
+/// `neighbours` names them, by one pass over `halfedges`: those of v in ascending half-edge id, not
+/// in rotation. Where all rings are wanted and their order is not, this reads memory from end to
+/// end instead of hopping through it.
+///
+/// Complexity O(halfedges); reads `origin` and `opposite`, and a stored `next`.
+/// Threads    Ranges that partition the half-edges meet the same vertices: give each thread an
+///            array of its own to add to, and add these up afterwards.
+template <Topology Mesh, class Visit>
+void for_each_neighbour(const Mesh& mesh, IndexRange halfedges, Visit&& visit) {
+  for (Index i = halfedges.begin; i < halfedges.end; ++i) {
+    const HalfedgeId h(i);
+    const VertexId from = mesh.origin[h];
+    const VertexId to = mesh.target(h);
+    visit(from, to);
+    if (!mesh.opposite[h].valid()) visit(to, from);
+  }
+}
+
 // A view that is not named would be gone before the range is used.
 template <Rotation rotation = Rotation::clockwise, Topology Mesh>
 void outgoing_halfedges(const Mesh&& mesh, VertexId v) = delete;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -81,15 +79,19 @@ template <Topology Mesh>
   return fan;
 }
 
-/// outgoing[v] = the smallest half-edge that leaves v, or -1, for the vertices in `own`. Looks at
-/// all half-edges, but writes to its own vertices only.
-inline void scatter_smallest_outgoing(IndexRange own, std::span<const Index> origin,
+/// outgoing[v] = the smallest half-edge of `halfedges` that leaves v; other vertices are left as
+/// they are. Two calls may run side by side if they write to arrays of their own.
+inline void scatter_smallest_outgoing(IndexRange halfedges, const Index* origin,
                                       Index* outgoing) noexcept {
-  for (Index v = own.begin; v < own.end; ++v) outgoing[v] = kInvalidIndex;
   // From the last to the first, so that the smallest is what remains.
-  for (auto h = static_cast<Index>(origin.size()); h-- > 0;) {
-    const Index v = origin[static_cast<std::size_t>(h)];
-    if (v >= own.begin && v < own.end) outgoing[v] = h;
+  for (Index h = halfedges.end; h-- > halfedges.begin;) outgoing[origin[h]] = h;
+}
+
+/// Takes over what another array has for the vertices in `range` that have none.
+inline void gather_missing_outgoing(IndexRange range, const Index* other,
+                                    Index* outgoing) noexcept {
+  for (Index v = range.begin; v < range.end; ++v) {
+    if (outgoing[v] == kInvalidIndex) outgoing[v] = other[v];
   }
 }
 

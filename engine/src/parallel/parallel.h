@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <utility>
 
@@ -53,6 +54,21 @@ void for_each_task(const Execution& execution, Index count, const Function& func
       }
     }
   });
+}
+
+/// Part number `part` of `part_count` about equal ones that [0, count) is cut into.
+[[nodiscard]] inline IndexRange share_of(Index part, Index part_count, Index count) noexcept {
+  const auto bound = [&](Index i) {
+    return static_cast<Index>(std::int64_t{count} * i / part_count);
+  };
+  return {bound(part), bound(part + 1)};
+}
+
+/// How many shares of [0, count) are worth an array each: one a thread, each of a grain or more.
+[[nodiscard]] inline Index share_count(const Execution& execution, Index count,
+                                       Index grain) noexcept {
+  const Index wanted = slot_count(execution, count / grain_of(execution, grain));
+  return wanted < 1 ? 1 : wanted;
 }
 
 /// Folds `kernel(IndexRange) -> T` over [0, count) with `join`, which must be exactly associative

@@ -2,7 +2,6 @@
 // joined two by two. A root is the smallest vertex of its set whatever the order of the joins, so
 // neither the number of runs nor the schedule shows in the labels.
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -22,11 +21,8 @@ std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 // has; an edge with such half-edges on both sides lies on no face.
 template <Topology Mesh>
 void join_run(Index run, Index run_count, const Mesh& mesh, Index* parent) noexcept {
-  const auto bound = [&](Index i) {
-    return static_cast<Index>(std::int64_t{mesh.face_count()} * i / run_count);
-  };
   kernels::fill_singletons({0, mesh.vertex_count()}, parent);
-  kernels::join_faces({bound(run), bound(run + 1)}, mesh, parent);
+  kernels::join_faces(par::share_of(run, run_count, mesh.face_count()), mesh, parent);
   if (run + 1 < run_count) return;
   const Index side_count = mesh.face_count() == 0 ? 0 : mesh.first(FaceId(mesh.face_count())).value;
   kernels::join_halfedges({side_count, mesh.halfedge_count()}, mesh, parent);
@@ -34,8 +30,7 @@ void join_run(Index run, Index run_count, const Mesh& mesh, Index* parent) noexc
 
 template <Topology Mesh>
 Buffer<Index> join_all(const Mesh& mesh, const Execution& execution) {
-  const Index run_count = std::clamp<Index>(mesh.face_count() / par::grain_of(execution, kGrain), 1,
-                                            static_cast<Index>(execution.threads()));
+  const Index run_count = par::share_count(execution, mesh.face_count(), kGrain);
   std::vector<Buffer<Index>> trees;
   for (Index i = 0; i < run_count; ++i) trees.emplace_back(at(mesh.vertex_count()));
   par::for_each_task(execution, run_count, [&](Index run, Index) {
