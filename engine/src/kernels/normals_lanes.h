@@ -37,8 +37,10 @@ struct Float4 {
   __m128 bits;
 
   Float4() = default;
-  Float4(__m128 value) noexcept : bits(value) {}              // NOLINT(google-explicit-constructor)
-  Float4(float value) noexcept : bits(_mm_set1_ps(value)) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float4(__m128 value) noexcept : bits(value) {}
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float4(float value) noexcept : bits(_mm_set1_ps(value)) {}
 
   friend Float4 operator+(Float4 a, Float4 b) noexcept { return _mm_add_ps(a.bits, b.bits); }
   friend Float4 operator-(Float4 a, Float4 b) noexcept { return _mm_sub_ps(a.bits, b.bits); }
@@ -82,9 +84,10 @@ struct Float8 {
   __m256 bits;
 
   Float8() = default;
-  Float8(__m256 value) noexcept : bits(value) {}  // NOLINT(google-explicit-constructor)
-  Float8(float value) noexcept
-      : bits(_mm256_set1_ps(value)) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float8(__m256 value) noexcept : bits(value) {}
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float8(float value) noexcept : bits(_mm256_set1_ps(value)) {}
 
   friend Float8 operator+(Float8 a, Float8 b) noexcept { return _mm256_add_ps(a.bits, b.bits); }
   friend Float8 operator-(Float8 a, Float8 b) noexcept { return _mm256_sub_ps(a.bits, b.bits); }
