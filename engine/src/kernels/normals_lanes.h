@@ -22,6 +22,11 @@ namespace hedgerow::kernels {
   return condition ? a : b;
 }
 
+/// Cheaper than `select` on vectors: the value where the condition holds, else zero; and the value,
+/// where the condition holds with the other sign.
+[[nodiscard]] inline float kept(bool condition, float a) noexcept { return condition ? a : 0.0f; }
+[[nodiscard]] inline float negated(bool condition, float a) noexcept { return condition ? -a : a; }
+
 #if defined(__SSE2__)
 
 /// Four comparisons; each lane all ones or all zeros.
@@ -64,6 +69,12 @@ struct Float4 {
 }
 [[nodiscard]] inline Float4 select(Mask4 condition, Float4 a, Float4 b) noexcept {
   return _mm_or_ps(_mm_and_ps(condition.bits, a.bits), _mm_andnot_ps(condition.bits, b.bits));
+}
+[[nodiscard]] inline Float4 kept(Mask4 condition, Float4 a) noexcept {
+  return _mm_and_ps(condition.bits, a.bits);
+}
+[[nodiscard]] inline Float4 negated(Mask4 condition, Float4 a) noexcept {
+  return _mm_xor_ps(_mm_and_ps(condition.bits, _mm_set1_ps(-0.0f)), a.bits);
 }
 
 #endif
@@ -119,6 +130,12 @@ struct Float8 {
 }
 [[nodiscard]] inline Float8 select(Mask8 condition, Float8 a, Float8 b) noexcept {
   return _mm256_blendv_ps(b.bits, a.bits, condition.bits);
+}
+[[nodiscard]] inline Float8 kept(Mask8 condition, Float8 a) noexcept {
+  return _mm256_and_ps(condition.bits, a.bits);
+}
+[[nodiscard]] inline Float8 negated(Mask8 condition, Float8 a) noexcept {
+  return _mm256_xor_ps(_mm256_and_ps(condition.bits, _mm256_set1_ps(-0.0f)), a.bits);
 }
 
 #endif

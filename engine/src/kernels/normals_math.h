@@ -52,16 +52,18 @@ template <class T>
   const T low = smaller(cross_length, adjacent);
   const T high = larger(cross_length, adjacent);
   const auto is_steep = low > high * T(0.41421356f);
-  const T numerator = select(is_steep, low - high, low);
-  const T denominator = select(is_steep, low + high, high);
-  const T t = numerator / select(denominator > T(0.0f), denominator, T(1.0f));
+  const T numerator = low - kept(is_steep, high);
+  const T denominator = high + kept(is_steep, low);
+  const T t = numerator / larger(denominator, T(0x1p-149f));  // 0 / 0 is no angle
   const T s = t * t;
   T p = T(0x1.43ae18p-4f) * s + T(-0x1.1b1f8ap-3f);
   p = p * s + T(0x1.99062p-3f);
   p = p * s + T(-0x1.5553d2p-2f);
-  const T small_angle = select(is_steep, T(0.25f * kPi), T(0.0f)) + (t + t * (s * p));
-  const T acute = select(cross_length > adjacent, T(0.5f * kPi) - small_angle, small_angle);
-  return select(dot_product < T(0.0f), T(kPi) - acute, acute);
+  const T small_angle = kept(is_steep, T(0.25f * kPi)) + (t + t * (s * p));
+  const auto is_over_45 = cross_length > adjacent;
+  const T acute = kept(is_over_45, T(0.5f * kPi)) + negated(is_over_45, small_angle);
+  const auto is_obtuse = dot_product < T(0.0f);
+  return kept(is_obtuse, T(kPi)) + negated(is_obtuse, acute);
 }
 
 template <class Condition, class T>
