@@ -7,6 +7,7 @@
 
 #include "build/duplicate_faces.h"
 #include "float3_check.h"
+#include "kernels/find_boundary.h"
 #include "kernels/join_sets.h"
 #include "kernels/scatter_valences.h"
 #include "parallel/parallel.h"
@@ -26,17 +27,27 @@ kernels::FaceColumns face_columns(const Connectivity& mesh) noexcept {
   return {mesh.origin().data(), first, mesh.face_count(), mesh.vertex_count()};
 }
 
+// The half-edges that loops consist of, in ascending order: those without opposite, or, in the
+// closed form, all that are on no face, which stand behind those that are.
+template <Topology Mesh>
+Index next_on_loop(Index from, const Mesh& mesh, bool is_closed_form) noexcept {
+  if (!is_closed_form) {
+    return kernels::find_boundary({from, mesh.halfedge_count()}, mesh.opposite.data());
+  }
+  const Index side_count = mesh.face_count() == 0 ? 0 : mesh.first(FaceId(mesh.face_count())).value;
+  return std::max(from, side_count);
+}
+
 template <Topology Mesh>
 BoundaryLoops find_loops(const Mesh& mesh, bool is_closed_form) {
-  std::vector<std::uint8_t> seen(at(mesh.halfedge_count()), 0);
+  std::vector<bool> seen(at(mesh.halfedge_count()), false);
   std::vector<Index> first = {0};
   std::vector<Index> halfedges;
-  for (Index i = 0; i < mesh.halfedge_count(); ++i) {
-    const HalfedgeId start(i);
-    const bool is_on_loop = is_closed_form ? !mesh.face(start).valid() : is_boundary(mesh, start);
-    if (!is_on_loop || seen[at(i)] != 0) continue;
-    for (const HalfedgeId h : boundary_loop(mesh, start)) {
-      seen[at(h.value)] = 1;
+  for (Index i = next_on_loop(0, mesh, is_closed_form); i < mesh.halfedge_count();
+       i = next_on_loop(i + 1, mesh, is_closed_form)) {
+    if (seen[at(i)]) continue;
+    for (const HalfedgeId h : boundary_loop(mesh, HalfedgeId(i))) {
+      seen[at(h.value)] = true;
       halfedges.push_back(h.value);
     }
     first.push_back(static_cast<Index>(halfedges.size()));
