@@ -14,6 +14,19 @@ namespace hedgerow::detail {
   return check_float3(out, out_count);
 }
 
+/// Packed normals of so many bytes are written past the caches. A plain store first reads the line
+/// that it overwrites; a streamed one does not, but who reads the normals next finds them in no
+/// cache, so the limit is a size that few caches hold along with what else the caller works on.
+inline constexpr std::int64_t kStreamedBytes = std::int64_t{1} << 24U;
+
+[[nodiscard]] inline kernels::NormalWriter normal_writer(const NormalsOut& out, std::int64_t count,
+                                                         DegeneratePolicy policy) noexcept {
+  constexpr std::int64_t kPacked = sizeof(float[3]);
+  return {
+      out, policy,
+      out.stride_bytes == static_cast<std::size_t>(kPacked) && count * kPacked >= kStreamedBytes};
+}
+
 /// The error for faces with an index out of range.
 [[nodiscard]] inline Error bad_index(const kernels::FaceSource& faces,
                                      const kernels::BadFaces& bad) noexcept {

@@ -29,7 +29,8 @@ Result<void> check_indices(const kernels::FaceSource& faces, const Execution& ex
 NormalStats run(const kernels::FaceSource& faces, Positions positions, NormalsOut out,
                 const NormalOptions& options, const Execution& execution) {
   const kernels::Points points{positions};
-  const kernels::NormalWriter writer{out, options.degenerate};
+  const kernels::NormalWriter writer =
+      detail::normal_writer(out, faces.face_count(), options.degenerate);
   return par::reduce<NormalStats>(
       execution, faces.face_count(), kGrain,
       [&](IndexRange range) {

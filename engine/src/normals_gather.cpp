@@ -85,8 +85,8 @@ Result<NormalStats> gather_vertex_normals(const Connectivity& mesh, Positions po
   const std::size_t all_sets = static_cast<std::size_t>(plan.slot_count) * plan.set_bytes;
   if (all_sets > 0) std::memset(sets, 0, all_sets);
 
-  kernels::GatherInput input{
-      {positions}, options.weight, mesh.origin().data(), mesh.is_triangle_mesh(), nullptr};
+  kernels::GatherInput input{{positions},           options.weight,          mesh.origin().data(),
+                             mesh.halfedge_count(), mesh.is_triangle_mesh(), nullptr};
   if (plan.face_bytes > 0) {
     auto* faces = reinterpret_cast<kernels::Wide*>(sets + all_sets);
     const kernels::FaceSource source(face_list(mesh));
@@ -97,6 +97,7 @@ Result<NormalStats> gather_vertex_normals(const Connectivity& mesh, Positions po
                         });
     input.faces = faces;
   }
+  // Not streamed: groups of 16 vertices are too few to wait for the end of their writes.
   const kernels::NormalWriter writer{out, options.degenerate};
   return mesh.visit(
       [&](const auto& view) { return run(view, plan, input, writer, execution, sets); });

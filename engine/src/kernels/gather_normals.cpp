@@ -98,7 +98,7 @@ NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input,
 // Bit i: vertex first + i has one fan at the most. `fan` is moved to the first entry not before it.
 unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexcept {
   while (fan != fans.end() && fan->vertex.value < first) ++fan;
-  unsigned wanted = (1U << kGroupSize) - 1;
+  unsigned wanted = kWholeGroup;
   for (; fan != fans.end() && fan->vertex.value < first + kGroupSize; ++fan) {
     wanted &= ~(1U << (fan->vertex.value - first));
   }
@@ -108,7 +108,6 @@ unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexc
 template <NormalWeight W>
 NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const GatherInput& input,
                           HalfedgeSet& spill, const NormalWriter& writer) noexcept {
-  constexpr unsigned kAll = (1U << kGroupSize) - 1;
   NormalStats stats;
   auto fan = std::lower_bound(
       mesh.fans.begin(), mesh.fans.end(), range.begin,
@@ -116,7 +115,7 @@ NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const Gath
   Index i = range.begin;
   for (; i + kGroupSize <= range.end; i += kGroupSize) {
     const unsigned wanted = with_one_fan(i, mesh.fans, fan);
-    unsigned left = gather_group_avx2<W>(i, wanted, mesh, input, writer) | (kAll & ~wanted);
+    unsigned left = gather_group_avx2<W>(i, wanted, mesh, input, writer) | (kWholeGroup & ~wanted);
     for (; left != 0; left &= left - 1) {
       gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, writer, stats);
     }

@@ -11,6 +11,7 @@ struct GatherInput {
   Points points;
   NormalWeight weight{};
   const Index* origin = nullptr;
+  Index halfedge_count = 0;
   /// Half-edge 3f + k leaves corner k of face f: faces are arithmetic.
   bool is_triangles = false;
   /// One `face_vector` per face where the faces are not all triangles and the weight is not `max`.
@@ -41,7 +42,8 @@ template <NormalWeight W>
                                               const GatherInput& input) noexcept;
 
 /// Vertices handed to `gather_group_avx2` at a time.
-inline constexpr Index kGroupSize = 16;
+inline constexpr Index kGroupSize = 32;
+inline constexpr unsigned kWholeGroup = ~0U >> (32 - kGroupSize);  // a bit for each
 
 /// Writes the normals of those of the kGroupSize vertices from `first` on whose bit is set in
 /// `wanted`; returns the bits of those that it left to the plain form: vertices with many corners,

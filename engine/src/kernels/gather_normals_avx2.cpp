@@ -72,6 +72,7 @@ void sort_rows(__m256i* row) noexcept {
   constexpr int kPairs[19][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6},
                                  {5, 7}, {1, 2}, {5, 6}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
                                  {2, 4}, {3, 5}, {1, 2}, {3, 4}, {5, 6}};
+#pragma GCC unroll 19
   for (const auto& [a, b] : kPairs) {
     const __m256i low = _mm256_min_epi32(row[a], row[b]);
     row[b] = _mm256_max_epi32(row[a], row[b]);
@@ -80,11 +81,11 @@ void sort_rows(__m256i* row) noexcept {
 }
 
 // The sums of eight vertices. Bit i of the result: lane i is unusual.
-template <NormalWeight W>
-int add_rows(const Rings& rings, const GatherInput& input, Vec3<Float8>& sum) noexcept {
-  const __m256i stride = stride_of(input.points);
+template <NormalWeight W, class Loader>
+int add_rows(const Rings& rings, const GatherInput& input, const Loader& loader,
+             Vec3<Float8>& sum) noexcept {
   const __m256i none = _mm256_set1_epi32(kNone);
-  const __m256i all = _mm256_set1_epi32(-1);
+  const __m256i last_face = _mm256_set1_epi32(static_cast<int>(input.halfedge_count - 3));
   int usual = 0xff;
   sum = {Float8(0.0f), Float8(0.0f), Float8(0.0f)};
   for (const __m256i& row : rings.row) {
@@ -99,11 +100,14 @@ int add_rows(const Rings& rings, const GatherInput& input, Vec3<Float8>& sum) no
     const __m256i corner =
         _mm256_sub_epi32(_mm256_add_epi32(_mm256_set1_epi32(1), is_first), is_third);
     const __m256i face = _mm256_sub_epi32(h, corner);
-    const Vec3<Float8> p0 = load_points(input.points, gather(input.origin, face, all), stride);
-    const Vec3<Float8> p1 = load_points(input.points, gather(input.origin + 1, face, all), stride);
-    const Vec3<Float8> p2 = load_points(input.points, gather(input.origin + 2, face, all), stride);
+    // One group at most has the last face, but for faces round vertices of many groups.
+    const __m256i is_last = _mm256_cmpeq_epi32(face, last_face);
+    if (_mm256_movemask_epi8(is_last) != 0) [[unlikely]]
+      return 0xff;
+    Vec3<Float8> p[3];
+    loader.load(input.origin, face, p);
     TriangleTerms<Float8> terms;
-    const Mask8 is_usual_here = triangle_terms<W>(p0, p1, p2, terms);
+    const Mask8 is_usual_here = triangle_terms<W>(p[0], p[1], p[2], terms);
     Float8 factor(0.0f);
     if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
       factor =
@@ -113,26 +117,26 @@ int add_rows(const Rings& rings, const GatherInput& input, Vec3<Float8>& sum) no
     const Mask8 skip{_mm256_castsi256_ps(is_none)};
     usual &= is_usual_here.lanes() | skip.lanes();
     const Vec3<Float8> next_sum = sum + corner_term<W>(terms, factor);
-    sum = {select(skip, sum.x, next_sum.x), select(skip, sum.y, next_sum.y),
-           select(skip, sum.z, next_sum.z)};
+    sum = skip.lanes() == 0 ? next_sum : select(skip, sum, next_sum);
   }
   return ~usual & 0xff;
 }
 
 // Writes the lanes that are in `wanted` and have a direction; returns those that have none.
 unsigned write_units(Index first, const Vec3<Float8>& sum, unsigned wanted,
-                     const NormalWriter& writer) noexcept {
+                     const NormalWriter& writer, const Writer8& writer8) noexcept {
   const Float8 square = dot(sum, sum);
   const unsigned good = wanted & static_cast<unsigned>(is_usual(square).lanes());
   const Vec3<Float8> unit = sum * (Float8(1.0f) / square_root(square));
-  alignas(32) float x[kLanes];
-  alignas(32) float y[kLanes];
-  alignas(32) float z[kLanes];
-  _mm256_store_ps(x, unit.x.bits);
-  _mm256_store_ps(y, unit.y.bits);
-  _mm256_store_ps(z, unit.z.bits);
+  if (good == 0xff) [[likely]] {
+    writer8.write(first, unit);
+    return 0;
+  }
+  const Rows8 rows = to_rows(unit, 0);
   for (int i = 0; i < kLanes; ++i) {
-    if ((good >> i & 1) != 0) writer.write(first + i, {x[i], y[i], z[i]});
+    alignas(16) float xyz[4];
+    _mm_store_ps(xyz, rows.row[i]);
+    if ((good >> i & 1) != 0) writer.write(first + i, {xyz[0], xyz[1], xyz[2]});
   }
   return wanted & ~good;
 }
@@ -145,15 +149,18 @@ unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mes
   Rings rings[kGroups];
   walk(mesh.outgoing.data() + first, mesh, rings);
   unsigned left = 0;
+  const Writer8 writer8(writer, first);
   for (int g = 0; g < kGroups; ++g) {
     sort_rows(rings[g].row);
     Vec3<Float8> sum;
-    const auto unusual = static_cast<unsigned>(add_rows<W>(rings[g], input, sum));
+    const auto unusual = static_cast<unsigned>(with_loader(input.points, [&](const auto& loader) {
+      return add_rows<W>(rings[g], input, loader, sum);
+    }));
     const auto large =
         static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(rings[g].is_left)));
     const unsigned here = wanted >> g * kLanes & 0xff;
     const unsigned simple = here & ~(unusual | large);
-    const unsigned flat = write_units(first + g * kLanes, sum, simple, writer);
+    const unsigned flat = write_units(first + g * kLanes, sum, simple, writer, writer8);
     left |= ((here & ~simple) | flat) << g * kLanes;
   }
   return left;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
 #include "kernels/normals_source.h"
 
 #if defined(__AVX2__)
@@ -11,42 +15,114 @@ namespace hedgerow::kernels {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
 }
 
-/// Floats from one position to the next, in each lane.
-[[nodiscard]] inline __m256i stride_of(const Points& points) noexcept {
-  return _mm256_set1_epi32(static_cast<int>(points.positions.stride_bytes / sizeof(float)));
+/// Rows 0 .. 3 in the low halves, rows 4 .. 7 in the high ones, as x, y and z of eight lanes.
+[[nodiscard]] inline Vec3<Float8> to_lanes(__m256 row04, __m256 row15, __m256 row26,
+                                           __m256 row37) noexcept {
+  const __m256 xy_low = _mm256_unpacklo_ps(row04, row15);
+  const __m256 z_low = _mm256_unpackhi_ps(row04, row15);
+  const __m256 xy_high = _mm256_unpacklo_ps(row26, row37);
+  const __m256 z_high = _mm256_unpackhi_ps(row26, row37);
+  return {_mm256_shuffle_ps(xy_low, xy_high, 0x44), _mm256_shuffle_ps(xy_low, xy_high, 0xee),
+          _mm256_shuffle_ps(z_low, z_high, 0x44)};
 }
 
-/// The positions of eight vertices. Reads nothing but the three floats of each.
+/// Loads the positions of the corners of eight triangles into lanes. `kFloats` is the stride of the
+/// positions, or 0 for "what they say", which takes a multiplication a corner.
+///
+/// A position is loaded as 16 bytes, one load where gathering coordinates takes three. Nothing is
+/// read beyond the three floats of the last position: a group that has it among its corners is
+/// loaded float by float.
 /// \pre `suits_avx2(points)`
-[[nodiscard]] inline Vec3<Float8> load_points(const Points& points, __m256i v,
-                                              __m256i stride) noexcept {
-  const float* p = points.positions.data;
-  const __m256i at = _mm256_mullo_epi32(v, stride);
-  return {_mm256_i32gather_ps(p, at, 4), _mm256_i32gather_ps(p + 1, at, 4),
-          _mm256_i32gather_ps(p + 2, at, 4)};
-}
+template <std::size_t kFloats>
+class TriangleLoader {
+ public:
+  explicit TriangleLoader(const Points& points) noexcept
+      : data_(points.positions.data),
+        floats_(points.positions.stride_bytes / sizeof(float)),
+        last_(_mm256_set1_epi32(static_cast<int>(points.positions.count) - 1)) {}
 
-/// Corner k of eight triangles, in lanes.
-struct Corners8 {
-  __m256i corner[3];
+  /// Asks for what groups further on will take, the last of which is `left` indices ahead:
+  /// hardware prefetchers know neither which positions come next nor what lies beyond a page. One
+  /// triangle of a group stands for all of it. (Inlined by force, since gcc 12 takes a function
+  /// that only prefetches for one that does nothing.)
+  [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
+    const Index* far = corners + std::min<std::ptrdiff_t>(left, 24 * kIndexGroupsAhead);
+    _mm_prefetch(reinterpret_cast<const char*>(far), _MM_HINT_T0);
+    _mm_prefetch(reinterpret_cast<const char*>(far + 16), _MM_HINT_T0);
+    const Index* near = corners + std::min<std::ptrdiff_t>(left, 24 * kPointGroupsAhead);
+    for (int k = 0; k < 3; ++k) {
+      _mm_prefetch(reinterpret_cast<const char*>(at(near[k])), _MM_HINT_T0);
+    }
+  }
+
+  /// Lane i of p[k] is at corners[3 i + k].
+  void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
+    const __m256i some = _mm256_max_epi32(load_indices(corners), load_indices(corners + 8));
+    const auto corner = [corners](int i, int k) { return corners[3 * i + k]; };
+    load(corner, _mm256_max_epi32(some, load_indices(corners + 16)), p);
+  }
+  /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
+  /// triangle of `corners` may be named; behind the last there is nothing to read.
+  void load(const Index* corners, __m256i firsts, Vec3<Float8> (&p)[3]) const noexcept {
+    alignas(32) int first[8];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(first), firsts);
+    // Keeps the compiler from taking the lanes out of the vector one by one, at twice the work.
+    asm volatile("" : "+m"(first));
+    const auto quad = [&](int i) {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(corners + first[i]));
+    };
+    __m128i largest = quad(0);
+    for (int i = 1; i < 8; ++i) largest = _mm_max_epi32(largest, quad(i));
+    const auto corner = [&](int i, int k) { return corners[first[i] + k]; };
+    load(corner, _mm256_castsi128_si256(largest), p);
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kIndexGroupsAhead = 64;
+  static constexpr std::ptrdiff_t kPointGroupsAhead = 16;
+
+  [[nodiscard]] const float* at(Index v) const noexcept {
+    return data_ + static_cast<std::size_t>(v) * (kFloats == 0 ? floats_ : kFloats);
+  }
+
+  // Corner k of triangle i is corner(i, k); `largest` has the largest of them in one of its lanes,
+  // and nothing larger than the last vertex.
+  template <class Corner>
+  void load(const Corner& corner, __m256i largest, Vec3<Float8> (&p)[3]) const noexcept {
+    if (_mm256_movemask_epi8(_mm256_cmpeq_epi32(largest, last_)) != 0) [[unlikely]] {
+      for (int k = 0; k < 3; ++k) p[k] = one_by_one(corner, k);
+      return;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const auto pair = [&](int i) {
+        const __m128 low = _mm_loadu_ps(at(corner(i, k)));
+        const __m128 high = _mm_loadu_ps(at(corner(i + 4, k)));
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+      };
+      p[k] = to_lanes(pair(0), pair(1), pair(2), pair(3));
+    }
+  }
+
+  template <class Corner>
+  [[nodiscard]] Vec3<Float8> one_by_one(const Corner& corner, int k) const noexcept {
+    alignas(32) float xyz[3][8];
+    for (int i = 0; i < 8; ++i) {
+      const float* p = at(corner(i, k));
+      for (int c = 0; c < 3; ++c) xyz[c][i] = p[c];
+    }
+    return {_mm256_load_ps(xyz[0]), _mm256_load_ps(xyz[1]), _mm256_load_ps(xyz[2])};
+  }
+
+  const float* data_;
+  std::size_t floats_;
+  __m256i last_;
 };
-/// Lane i of corner k is corners[3 i + k].
-[[nodiscard]] inline Corners8 load_triangles(const Index* corners) noexcept {
-  // Three loads hold the 24 indices; each result takes lanes from all three, then puts them in
-  // order: lane l of load j is index 8 j + l, corner (8 j + l) % 3 of triangle (8 j + l) / 3.
-  const __m256i a = load_indices(corners);
-  const __m256i b = load_indices(corners + 8);
-  const __m256i c = load_indices(corners + 16);
-  const auto blend = [](__m256i p, __m256i q, __m256i r) {
-    return _mm256_blend_epi32(_mm256_blend_epi32(p, q, 0x92), r, 0x24);
-  };
-  // 0, 9, 18, 3, 12, 21, 6, 15
-  const __m256i first = blend(a, b, c);
-  const __m256i second = blend(c, a, b);
-  const __m256i third = blend(b, c, a);
-  return {{_mm256_permutevar8x32_epi32(first, _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5)),
-           _mm256_permutevar8x32_epi32(second, _mm256_setr_epi32(1, 4, 7, 2, 5, 0, 3, 6)),
-           _mm256_permutevar8x32_epi32(third, _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7))}};
+
+/// Calls `function(loader)` with the one for the stride of the positions.
+template <class Function>
+inline decltype(auto) with_loader(const Points& points, const Function& function) noexcept {
+  return points.positions.stride_bytes == sizeof(float[3]) ? function(TriangleLoader<3>(points))
+                                                           : function(TriangleLoader<0>(points));
 }
 
 /// Eight vectors as rows x, y, z, w.
@@ -70,33 +146,74 @@ struct Rows8 {
   return rows;
 }
 
-/// Eight float3 in a row are three vectors exactly: `load_triangles` the other way round.
-inline void store_packed(float* out, const Vec3<Float8>& v) noexcept {
+/// Eight float3 in a row are three vectors exactly: `load_triangles` the other way round. `Store`
+/// is how to store one of them.
+template <class Store>
+inline void store_packed(float* out, const Vec3<Float8>& v, const Store& store) noexcept {
   const __m256 x = _mm256_permutevar8x32_ps(v.x.bits, _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5));
   const __m256 y = _mm256_permutevar8x32_ps(v.y.bits, _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2));
   const __m256 z = _mm256_permutevar8x32_ps(v.z.bits, _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7));
   const auto blend = [](__m256 p, __m256 q, __m256 r) {
     return _mm256_blend_ps(_mm256_blend_ps(p, q, 0x92), r, 0x24);
   };
-  _mm256_storeu_ps(out, blend(x, y, z));
-  _mm256_storeu_ps(out + 8, blend(z, x, y));
-  _mm256_storeu_ps(out + 16, blend(y, z, x));
+  store(out, blend(x, y, z));
+  store(out + 8, blend(z, x, y));
+  store(out + 16, blend(y, z, x));
 }
 
-/// Writes the unit vectors of elements first .. first + 7.
-inline void write_units(const NormalWriter& writer, Index first, const Vec3<Float8>& v) noexcept {
-  if (writer.out.stride_bytes == sizeof(float[3])) {
-    store_packed(writer.out[first], v);
-    return;
+/// Writes unit vectors, eight at a time, the way that suits their place.
+class Writer8 {
+ public:
+  /// For elements from `first` on, in steps of eight.
+  Writer8(const NormalWriter& writer, Index first) noexcept : writer_(writer) {
+    const bool is_packed = writer.out.stride_bytes == sizeof(float[3]);
+    const bool is_aligned = steps_to_alignment(writer.out[first]) == 0;
+    way_ = !is_packed                         ? Way::strided
+           : writer.is_streamed && is_aligned ? Way::streamed
+                                              : Way::packed;
   }
-  const Rows8 rows = to_rows(v, 0);
-  for (Index i = 0; i < 8; ++i) {
-    alignas(16) float xyz[4];
-    _mm_store_ps(xyz, rows.row[i]);
-    float* p = writer.out[first + i];
-    for (int k = 0; k < 3; ++k) p[k] = xyz[k];
+  Writer8(const Writer8&) = delete;
+  Writer8& operator=(const Writer8&) = delete;
+  /// What was streamed is seen by whoever this thread tells that it is done.
+  ~Writer8() {
+    if (way_ == Way::streamed) _mm_sfence();
   }
-}
+
+  /// How many elements from `first` on are to be written otherwise, so that the rest can be
+  /// streamed: 0 to 7.
+  [[nodiscard]] static Index head(const NormalWriter& writer, Index first) noexcept {
+    return writer.is_streamed ? steps_to_alignment(writer.out[first]) : 0;
+  }
+
+  void write(Index first, const Vec3<Float8>& v) const noexcept {
+    float* p = writer_.out[first];
+    if (way_ == Way::streamed) {
+      store_packed(p, v, [](float* to, __m256 part) { _mm256_stream_ps(to, part); });
+    } else if (way_ == Way::packed) {
+      store_packed(p, v, [](float* to, __m256 part) { _mm256_storeu_ps(to, part); });
+    } else {
+      const Rows8 rows = to_rows(v, 0);
+      for (Index i = 0; i < 8; ++i) {
+        alignas(16) float xyz[4];
+        _mm_store_ps(xyz, rows.row[i]);
+        writer_.write(first + i, {xyz[0], xyz[1], xyz[2]});
+      }
+    }
+  }
+
+ private:
+  enum class Way { strided, packed, streamed };
+
+  // Steps of three floats until the address is a multiple of eight: with word w, w + 3 n = 0 modulo
+  // 8 has the solution n = -3 w, as 3 times 3 is 1.
+  static Index steps_to_alignment(const float* p) noexcept {
+    const std::uintptr_t word = reinterpret_cast<std::uintptr_t>(p) / sizeof(float);
+    return static_cast<Index>((0 - 3 * word) & 7U);
+  }
+
+  const NormalWriter& writer_;
+  Way way_;
+};
 
 }  // namespace hedgerow::kernels
 

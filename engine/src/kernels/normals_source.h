@@ -101,6 +101,9 @@ void for_each_packed(IndexRange range, const FaceSource& faces, const Visit& vis
 struct NormalWriter {
   NormalsOut out;
   DegeneratePolicy policy = DegeneratePolicy::zero;
+  /// Past the caches, where a kernel can: for packed output that they would not hold anyway. Such a
+  /// kernel has all its writes done before it returns.
+  bool is_streamed = false;
 
   void write(Index i, Float3 unit) const noexcept {
     float* p = out[i];

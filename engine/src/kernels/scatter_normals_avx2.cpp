@@ -1,6 +1,10 @@
 // The terms of eight triangles are computed across lanes, turned into rows, and added one after the
 // other, in the order of the plain form. A sum and its count are one vector.
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 #include "kernels/normals_avx2.h"
 #include "kernels/normals_weight.h"
 #include "kernels/scatter_normals.h"
@@ -13,48 +17,54 @@ namespace {
 
 constexpr int kGroup = 8;  // triangles
 
-// Where the sums of the corners of eight triangles stand, in floats from the first of the block.
-struct Places {
-  alignas(32) int at[3][kGroup];
-  unsigned inside[3];  // bit i: corner k of triangle i is in the block
+constexpr unsigned kAllInside = 0xffffff;
 
-  Places(const Corners8& c, const SumBlock& block) noexcept {
-    const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
-    const __m256i last = _mm256_set1_epi32(static_cast<int>(block.size - 1));
-    for (int k = 0; k < 3; ++k) {
-      const __m256i local = _mm256_sub_epi32(c.corner[k], begin);
-      const __m256i is_inside = _mm256_cmpeq_epi32(_mm256_min_epu32(local, last), local);
-      inside[k] = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_inside)));
-      _mm256_store_si256(reinterpret_cast<__m256i*>(at[k]), _mm256_slli_epi32(local, 2));
-    }
+// Bit c: corner c of the 24 is in the block.
+unsigned inside(const Index* corners, const SumBlock& block) noexcept {
+  const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
+  const __m256i last = _mm256_set1_epi32(static_cast<int>(block.size - 1));
+  unsigned bits = 0;
+  for (int j = 0; j < 3; ++j) {
+    const __m256i local = _mm256_sub_epi32(load_indices(corners + kGroup * j), begin);
+    const __m256i is_inside = _mm256_cmpeq_epi32(_mm256_min_epu32(local, last), local);
+    bits |= static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_inside))) << kGroup * j;
   }
-  [[nodiscard]] bool all_inside() const noexcept {
-    return (inside[0] & inside[1] & inside[2]) == 0xff;
-  }
-  [[nodiscard]] bool none_inside() const noexcept {
-    return (inside[0] | inside[1] | inside[2]) == 0;
-  }
-};
-
-void add(float* sum, __m128 term) noexcept {
-  _mm_store_ps(sum, _mm_add_ps(_mm_load_ps(sum), term));
+  return bits;
 }
 
-template <NormalWeight W>
+// The sums of a block by vertex id: their address is one shift and one addition away from it.
+class Sums {
+ public:
+  explicit Sums(const SumBlock& block) noexcept
+      : zeroth_(reinterpret_cast<std::uintptr_t>(block.sums) -
+                sizeof(VertexSum) * static_cast<std::uintptr_t>(block.begin)) {}
+
+  void add(Index v, __m128 term) const noexcept {
+    auto* p =
+        reinterpret_cast<float*>(zeroth_ + sizeof(VertexSum) * static_cast<std::uintptr_t>(v));
+    _mm_store_ps(p, _mm_add_ps(_mm_load_ps(p), term));
+  }
+
+ private:
+  std::uintptr_t zeroth_;  // of a vertex that need not be in the block
+};
+
+template <NormalWeight W, class Loader>
 void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
-             const SumBlock& block) noexcept {
+             const SumBlock& block, const Loader& loader) noexcept {
   constexpr bool kOneTerm = W == NormalWeight::area || W == NormalWeight::uniform;
-  const __m256i stride = stride_of(input.points);
-  auto* sums = reinterpret_cast<float*>(block.sums);
+  // Most often the next run of faces is the next to be added.
+  const Index end_of_all = input.faces.native != nullptr ? input.faces.face_count() : range.end;
+  const Sums sums(block);
   Index f = range.begin;
   for (; f + kGroup <= range.end; f += kGroup, corners += 3 * kGroup) {
-    const Corners8 c = load_triangles(corners);
-    const Places places(c, block);
-    if (places.none_inside()) continue;
+    loader.prefetch(corners, 3 * static_cast<std::ptrdiff_t>(end_of_all - kGroup - f));
+    const unsigned in_block = inside(corners, block);
+    if (in_block == 0) continue;
+    Vec3<Float8> p[3];
+    loader.load(corners, p);
     TriangleTerms<Float8> terms;
-    const Mask8 usual = triangle_terms<W>(load_points(input.points, c.corner[0], stride),
-                                          load_points(input.points, c.corner[1], stride),
-                                          load_points(input.points, c.corner[2], stride), terms);
+    const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
     if (usual.lanes() != 0xff) [[unlikely]] {
       scatter_triangles_scalar({f, f + kGroup}, corners, input, block, false);
       continue;
@@ -65,11 +75,15 @@ void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
       rows[1] = to_rows(corner_term<W>(terms, terms.factor[1]), 1);
       rows[2] = to_rows(corner_term<W>(terms, terms.factor[2]), 1);
     }
-    const bool all_inside = places.all_inside();
-    for (int i = 0; i < kGroup; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        if (!all_inside && (places.inside[k] >> i & 1) == 0) continue;
-        add(sums + places.at[k][i], rows[kOneTerm ? 0 : k].row[i]);
+    if (in_block == kAllInside) [[likely]] {
+#pragma GCC unroll 8
+      for (int i = 0; i < kGroup; ++i) {
+        for (int k = 0; k < 3; ++k) sums.add(corners[3 * i + k], rows[kOneTerm ? 0 : k].row[i]);
+      }
+    } else {
+      for (unsigned left = in_block; left != 0; left &= left - 1) {
+        const int c = std::countr_zero(left);
+        sums.add(corners[c], rows[kOneTerm ? 0 : c % 3].row[c / 3]);
       }
     }
   }
@@ -83,30 +97,30 @@ Vec3<Float8> load_sums(const VertexSum* sums) noexcept {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p + 4 * i)),
                                 _mm_load_ps(p + 4 * (i + 4)), 1);
   };
-  const __m256 xy_low = _mm256_unpacklo_ps(pair(0), pair(1));
-  const __m256 z_low = _mm256_unpackhi_ps(pair(0), pair(1));
-  const __m256 xy_high = _mm256_unpacklo_ps(pair(2), pair(3));
-  const __m256 z_high = _mm256_unpackhi_ps(pair(2), pair(3));
-  return {_mm256_shuffle_ps(xy_low, xy_high, 0x44), _mm256_shuffle_ps(xy_low, xy_high, 0xee),
-          _mm256_shuffle_ps(z_low, z_high, 0x44)};
+  return to_lanes(pair(0), pair(1), pair(2), pair(3));
 }
 
 }  // namespace
 
 void scatter_triangles_avx2(IndexRange range, const Index* corners, const ScatterInput& input,
                             const SumBlock& block, bool) noexcept {
-  with_weight(input.weight, [&](auto weight) { scatter<weight()>(range, corners, input, block); });
+  with_weight(input.weight, [&](auto weight) {
+    with_loader(input.points, [&](const auto& loader) {
+      scatter<weight()>(range, corners, input, block, loader);
+    });
+  });
 }
 
 NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
                              Index& again_count) noexcept {
-  NormalStats stats;
-  Index i = 0;
+  Index i = std::min(Writer8::head(writer, block.begin), block.size);
+  NormalStats stats = finish_sums_scalar({block.begin, i, block.sums}, writer, again_count);
+  const Writer8 writer8(writer, block.begin + i);
   for (; i + 8 <= block.size; i += 8) {
     const Vec3<Float8> sum = load_sums(block.sums + i);
     const Float8 square = dot(sum, sum);
     if (is_usual(square).lanes() == 0xff) [[likely]] {
-      write_units(writer, block.begin + i, sum * (Float8(1.0f) / square_root(square)));
+      writer8.write(block.begin + i, sum * (Float8(1.0f) / square_root(square)));
     } else {
       const SumBlock eight{block.begin + i, 8, block.sums + i};
       stats = merge(stats, finish_sums_scalar(eight, writer, again_count));
