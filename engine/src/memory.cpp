@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -18,19 +19,29 @@ namespace detail {
 namespace {
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
+
+// Read once: who sets it wants all columns alike.
+bool wants_huge_pages() noexcept {
+  static const bool wanted = [] {
+    const char* setting = std::getenv("HEDGEROW_HUGE_PAGES");
+    return setting == nullptr || std::string_view(setting) != "off";
+  }();
+  return wanted;
+}
 }  // namespace
 
 // A fresh 100 MB column is 25,000 page faults in 4 KB pages and 50 in 2 MB ones; PERF.md, "memory".
 void* allocate_bytes(std::size_t bytes) {
   if (bytes == 0) return nullptr;
   if (bytes > static_cast<std::size_t>(PTRDIFF_MAX) - 2 * kHugePage) throw std::bad_alloc();
-  const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : kCacheLine;
+  const bool is_huge = bytes >= 2 * kHugePage && wants_huge_pages();
+  const std::size_t alignment = is_huge ? kHugePage : kCacheLine;
   const std::size_t size = (bytes + kReadableTailBytes + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, size);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
   // Advice only: where huge pages are off, nothing changes but the time.
-  if (alignment == kHugePage) (void)madvise(memory, size, MADV_HUGEPAGE);
+  if (is_huge) (void)madvise(memory, size, MADV_HUGEPAGE);
 #endif
   return memory;
 }
