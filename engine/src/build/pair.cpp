@@ -17,7 +17,7 @@ namespace hedgerow::detail {
 namespace {
 
 // Above this many scans a face it is cheaper to partition all corners first; PERF.md, "Decisions".
-constexpr std::int64_t kMaxScanPerMille = 20'000;
+constexpr std::int64_t kMaxScanPerMille = 45'000;
 
 class Pairing {
  public:

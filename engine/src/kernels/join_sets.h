@@ -28,8 +28,10 @@ inline void join_sets(Index* parent, Index a, Index b) noexcept {
   (a < b ? parent[b] : parent[a]) = a < b ? a : b;
 }
 
-/// Joins the vertices of each face in `faces`. Most corners of a mesh in a local order hang on the
-/// same root already; the others are hung on it as they are met, so that later walks are short.
+/// Joins the vertices of each face in `faces`. In a local order most corners hang on the same
+/// number as the first one already, or are met for the first time and can be hung there as they
+/// are: a store, without a branch. What is left is joined by its roots, and hung on them, so that
+/// later walks are short.
 template <Topology Mesh>
 void join_faces(IndexRange faces, const Mesh& mesh, Index* parent) noexcept {
   for (Index i = faces.begin; i < faces.end; ++i) {
@@ -38,7 +40,14 @@ void join_faces(IndexRange faces, const Mesh& mesh, Index* parent) noexcept {
     const auto corner = [&](Index h) { return mesh.origin[HalfedgeId(h)].value; };
     const Index shared = parent[corner(begin)];
     bool is_joined = true;
-    for (Index h = begin + 1; h < end; ++h) is_joined &= parent[corner(h)] == shared;
+    for (Index h = begin + 1; h < end; ++h) {
+      const Index v = corner(h);
+      const Index above = parent[v];
+      const bool is_new = (above == v) & (shared < v);
+      const Index now = is_new ? shared : above;
+      parent[v] = now;
+      is_joined &= now == shared;
+    }
     if (is_joined) continue;
     Index smallest = find_root(parent, shared);
     for (Index h = begin + 1; h < end; ++h) {
