@@ -11,12 +11,16 @@ namespace hedgerow::bench {
 namespace {
 
 /// Reads origin, opposite and outgoing; writes them and next, face and first.
-double close_bytes(const Dataset& data) {
+Traffic close_traffic(const Dataset& data) {
   const auto [halfedges, vertices, faces] = counts_of(data);
-  return kIndexBytes * (6 * halfedges + 2 * vertices + faces);
+  return {kIndexBytes * (2 * halfedges + vertices),
+          kIndexBytes * (4 * halfedges + vertices + faces)};
 }
 /// Reads all columns; writes origin, opposite and outgoing.
-double open_bytes(const Dataset& data) { return close_bytes(data); }
+Traffic open_traffic(const Dataset& data) {
+  const Traffic closing = close_traffic(data);
+  return {closing.written, closing.read};
+}
 
 bool is_same(const Connectivity& a, const Connectivity& b) {
   return std::ranges::equal(a.origin(), b.origin()) &&
@@ -65,12 +69,12 @@ void add_boundary(const Plan& plan) {
                  [](const Dataset& data, const Execution& execution) {
                    return prepare(data, execution, true);
                  },
-                 close_bytes});
+                 close_traffic, Mix::copy});
       add(plan, {"open_boundary", key, threads, "",
                  [](const Dataset& data, const Execution& execution) {
                    return prepare(data, execution, false);
                  },
-                 open_bytes});
+                 open_traffic, Mix::copy});
     }
   }
 }

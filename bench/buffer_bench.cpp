@@ -35,14 +35,14 @@ Work prepare(const Dataset& data, const Execution&) {
   return work;
 }
 
-double compulsory_bytes(const Dataset& data) { return kIndexBytes * counts_of(data).halfedges; }
+Traffic traffic(const Dataset& data) { return {0, kIndexBytes * counts_of(data).halfedges}; }
 
 }  // namespace
 
 void add_buffer(const Plan& plan) {
   const DatasetKey& key = plan.large.front();
-  add(plan, {"fill_column", key, 1, "", prepare<Buffer<Index>>, compulsory_bytes});
-  add(plan, {"fill_column", key, 1, "vector", prepare<std::vector<Index>>, compulsory_bytes});
+  add(plan, {"fill_column", key, 1, "", prepare<Buffer<Index>>, traffic, Mix::copy});
+  add(plan, {"fill_column", key, 1, "vector", prepare<std::vector<Index>>, traffic, Mix::copy});
 }
 
 }  // namespace hedgerow::bench

@@ -14,9 +14,9 @@ namespace hedgerow::bench {
 namespace {
 
 /// Reads the corners, writes an opposite for each and an outgoing half-edge for each vertex.
-double compulsory_bytes(const Dataset& data) {
+Traffic traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return kIndexBytes * (2 * counts.halfedges + counts.vertices);
+  return {kIndexBytes * counts.halfedges, kIndexBytes * (counts.halfedges + counts.vertices)};
 }
 
 Work prepare_engine(const Dataset& data, const Execution& execution, BuildStrategy strategy) {
@@ -35,6 +35,10 @@ Work prepare_engine(const Dataset& data, const Execution& execution, BuildStrate
     work.error = "build failed; not measured";
   } else if (!std::ranges::equal((*output)->mesh.opposite(), data.reference.opposite)) {
     work.error = "wrong opposites; not measured";
+  } else {
+    const BuildStats& stats = (*output)->stats;
+    work.notes["is_window"] = stats.strategy == BuildStrategy::window ? 1 : 0;
+    work.notes["scans_per_face"] = static_cast<double>(stats.scan_per_mille) / 1000;
   }
   work.cleanup();
   return work;
@@ -97,18 +101,27 @@ void add_adjacency([[maybe_unused]] const Plan& plan, [[maybe_unused]] const Dat
   if constexpr (sizeof(Index) == sizeof(std::uint32_t)) {
     add(plan, {"build", key, 1, "meshoptimizer",
                [](const Dataset& data, const Execution&) { return prepare_adjacency(data); },
-               compulsory_bytes});
+               traffic, Mix::copy});
   }
 #endif
 }
 
-void add_engine(const Plan& plan, const DatasetKey& key, int threads, BuildStrategy strategy,
-                const std::string& variant) {
-  add(plan, {"build", key, threads, variant,
+void add_engine(const Plan& plan, const char* operation, const DatasetKey& key, int threads,
+                BuildStrategy strategy, const std::string& variant) {
+  add(plan, {operation, key, threads, variant,
              [strategy](const Dataset& data, const Execution& execution) {
                return prepare_engine(data, execution, strategy);
              },
-             compulsory_bytes});
+             traffic, Mix::copy});
+}
+
+void add_peers(const Plan& plan, const DatasetKey& key) {
+  for (const Peer& peer : peers()) {
+    add(plan, {"build", key, 1, peer.name,
+               [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
+               traffic, Mix::copy});
+  }
+  add_adjacency(plan, key);
 }
 
 }  // namespace
@@ -116,22 +129,23 @@ void add_engine(const Plan& plan, const DatasetKey& key, int threads, BuildStrat
 void add_build(const Plan& plan) {
   for (const DatasetKey& key : plan.all) {
     for (const int threads : plan.threads) {
-      add_engine(plan, key, threads, BuildStrategy::automatic, "");
+      add_engine(plan, "build", key, threads, BuildStrategy::automatic, "");
     }
+    if (plan.has_peers(key)) add_peers(plan, key);
   }
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
       // On shuffled faces every block of vertices would scan all of them.
-      if (key.shape == "grid") add_engine(plan, key, threads, BuildStrategy::window, "window");
-      add_engine(plan, key, threads, BuildStrategy::partition, "partition");
+      if (key.shape != "shuffled") {
+        add_engine(plan, "build", key, threads, BuildStrategy::window, "window");
+      }
+      add_engine(plan, "build", key, threads, BuildStrategy::partition, "partition");
     }
-    for (const Peer& peer : peers()) {
-      add(plan,
-          {"build", key, 1, peer.name,
-           [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
-           compulsory_bytes});
-    }
-    add_adjacency(plan, key);
+  }
+  for (const DatasetKey& key : plan.disordered) {
+    add_engine(plan, "strategy", key, 1, BuildStrategy::automatic, "");
+    add_engine(plan, "strategy", key, 1, BuildStrategy::window, "window");
+    add_engine(plan, "strategy", key, 1, BuildStrategy::partition, "partition");
   }
 }
 

@@ -2,6 +2,8 @@
 // would use, over computed and over stored `next` and `face`, and written out by hand; and by the
 // pass over the half-edges for callers to whom the order round a vertex is nothing.
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,6 +11,7 @@
 #include "hedgerow/circulate.h"
 #include "peers/measured_mesh.h"
 #include "runner.h"
+#include "stored_form.h"
 
 namespace hedgerow::bench {
 
@@ -20,6 +23,18 @@ struct ByRange {
   std::uint32_t operator()(const Mesh& mesh, VertexId v) const noexcept {
     std::uint32_t sum = 0;
     for (const VertexId u : neighbours(mesh, v)) sum += static_cast<std::uint32_t>(u.value);
+    return sum;
+  }
+};
+
+/// Sums the ids of the half-edges that leave v: the walk alone.
+struct ByOutgoing {
+  template <Topology Mesh>
+  std::uint32_t operator()(const Mesh& mesh, VertexId v) const noexcept {
+    std::uint32_t sum = 0;
+    for (const HalfedgeId h : outgoing_halfedges(mesh, v)) {
+      sum += static_cast<std::uint32_t>(h.value);
+    }
     return sum;
   }
 };
@@ -71,6 +86,14 @@ void gather_sums(const Mesh& mesh, const Execution& execution, const Sum& sum_of
       execution.context(), [](void* user) { (*static_cast<decltype(body)*>(user))(); }, &body);
 }
 
+/// The sums of the half-edges that leave each vertex, from the column of origins.
+std::string compare_outgoing(const std::vector<std::uint32_t>& sums, const Dataset& data) {
+  std::vector<std::uint32_t> expected(sums.size(), 0);
+  std::uint32_t h = 0;
+  for (const Index v : data.mesh.origin()) expected[static_cast<std::size_t>(v)] += h++;
+  return sums == expected ? "" : "other half-edges than leave the vertices; not measured";
+}
+
 std::string compare(const std::vector<std::uint32_t>& sums, const Dataset& data) {
   std::vector<std::uint32_t> expected = data.reference.one_ring_sums;
   for (const Index v : vertices_with_several_fans(data.mesh)) {
@@ -79,36 +102,21 @@ std::string compare(const std::vector<std::uint32_t>& sums, const Dataset& data)
   return sums == expected ? "" : "other one-ring sums than the reference; not measured";
 }
 
-/// A mesh of its own with `next` and `face` stored; the dataset's stays as it is.
-std::shared_ptr<Connectivity> with_stored_columns(const Dataset& data) {
-  ConnectivityColumns columns;
-  columns.origin = ColumnStorage::borrow(data.mesh.origin());
-  columns.opposite = ColumnStorage::borrow(data.mesh.opposite());
-  columns.outgoing = ColumnStorage::borrow(data.mesh.outgoing());
-  columns.fans = Buffer<FanStart>::copy_of(data.mesh.fans());
-  columns.all_triangles = true;
-  auto mesh = std::make_shared<Connectivity>(std::move(columns));
-  mesh->materialise(Execution::serial());
-  return mesh;
-}
+using Compare = std::string (*)(const std::vector<std::uint32_t>&, const Dataset&);
 
+/// Over the mesh of `data`, or over `stored` if there is one.
 template <class Sum>
 Work prepare_engine(const Dataset& data, const Execution& execution, const Sum& sum_of,
-                    bool is_stored) {
+                    std::shared_ptr<const Connectivity> stored, Compare compare_sums) {
   auto sums = std::make_shared<std::vector<std::uint32_t>>(
       static_cast<std::size_t>(data.mesh.vertex_count()));
+  const Connectivity& mesh = stored ? *stored : data.mesh;
   Work work;
-  if (is_stored && data.mesh.is_implicit()) {
-    work.run = [mesh = with_stored_columns(data), execution, sum_of, sums] {
-      gather_sums(mesh->polygons(), execution, sum_of, *sums);
-    };
-  } else {
-    work.run = [&data, execution, sum_of, sums] {
-      data.mesh.visit([&](const auto& view) { gather_sums(view, execution, sum_of, *sums); });
-    };
-  }
+  work.run = [&mesh, stored = std::move(stored), execution, sum_of, sums] {
+    mesh.visit([&](const auto& view) { gather_sums(view, execution, sum_of, *sums); });
+  };
   work.run();
-  work.error = compare(*sums, data);
+  work.error = compare_sums(*sums, data);
   return work;
 }
 
@@ -143,39 +151,58 @@ Work prepare_peer(const Dataset& data, const Peer& peer) {
   return work;
 }
 
-/// Reads origin, opposite and outgoing; writes one sum a vertex.
-double compulsory_bytes(const Dataset& data) {
+/// Reads opposite and outgoing; writes one sum a vertex.
+Traffic outgoing_traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return kIndexBytes * (2 * counts.halfedges + counts.vertices) +
-         sizeof(std::uint32_t) * counts.vertices;
+  return {kIndexBytes * (counts.halfedges + counts.vertices),
+          sizeof(std::uint32_t) * counts.vertices};
+}
+/// Beside that, reads origin.
+Traffic ring_traffic(const Dataset& data) {
+  Traffic traffic = outgoing_traffic(data);
+  traffic.read += kIndexBytes * counts_of(data).halfedges;
+  return traffic;
 }
 
 template <class Sum>
-void add_engine(const Plan& plan, const DatasetKey& key, const Sum& sum_of, bool is_stored,
-                const std::string& variant) {
+void add_engine(const Plan& plan, const char* operation, const DatasetKey& key, const Sum& sum_of,
+                bool is_stored, const std::string& variant) {
+  const bool is_walk = operation == std::string_view("circulator");
   for (const int threads : plan.threads) {
-    add(plan, {"one_ring", key, threads, variant,
+    add(plan, {operation, key, threads, variant,
                [=](const Dataset& data, const Execution& execution) {
-                 return prepare_engine(data, execution, sum_of, is_stored);
+                 return prepare_engine(data, execution, sum_of,
+                                       is_stored ? stored_form(data) : nullptr,
+                                       is_walk ? compare_outgoing : compare);
                },
-               compulsory_bytes});
+               [=](const Dataset& data) {
+                 Traffic traffic = is_walk ? outgoing_traffic(data) : ring_traffic(data);
+                 if (is_stored) traffic.read += kIndexBytes * counts_of(data).halfedges;
+                 return traffic;
+               },
+               Mix::read});
   }
 }
 
 }  // namespace
 
 void add_circulate(const Plan& plan) {
-  for (const DatasetKey& key : plan.all) add_engine(plan, key, ByRange{}, false, "");
-  for (const DatasetKey& key : plan.large) {
-    add_engine(plan, key, ByHand{}, false, "by-hand");
-    add_engine(plan, key, ByRange{}, true, "explicit");
-    add(plan, {"one_ring", key, 1, "pass", prepare_pass, compulsory_bytes});
+  for (const DatasetKey& key : plan.all) {
+    add_engine(plan, "one_ring", key, ByRange{}, false, "");
+    if (!plan.has_peers(key)) continue;
     for (const Peer& peer : peers()) {
       add(plan,
           {"one_ring", key, 1, peer.name,
            [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
-           compulsory_bytes});
+           ring_traffic, Mix::read});
     }
+  }
+  for (const DatasetKey& key : plan.large) {
+    add_engine(plan, "one_ring", key, ByHand{}, false, "by-hand");
+    add_engine(plan, "one_ring", key, ByRange{}, true, "stored");
+    add(plan, {"one_ring", key, 1, "pass", prepare_pass, ring_traffic, Mix::read});
+    add_engine(plan, "circulator", key, ByOutgoing{}, false, "");
+    add_engine(plan, "circulator", key, ByOutgoing{}, true, "stored");
   }
 }
 

@@ -55,7 +55,14 @@ Reference make_reference(const Dataset& data) {
   return reference;
 }
 
+std::vector<std::unique_ptr<Dataset>>& made_datasets() {
+  static std::vector<std::unique_ptr<Dataset>> made;
+  return made;
+}
+
 }  // namespace
+
+std::string DatasetKey::family() const { return shape == "reordered" ? "grid" : shape; }
 
 std::string DatasetKey::size() const {
   const auto rounded = [](std::int64_t count, std::int64_t unit) {
@@ -74,7 +81,7 @@ Counts counts_of(const Dataset& data) noexcept {
 }
 
 const Dataset& dataset(const DatasetKey& key) {
-  static std::vector<std::unique_ptr<Dataset>> made;
+  std::vector<std::unique_ptr<Dataset>>& made = made_datasets();
   for (const auto& data : made) {
     if (data->key == key) return *data;
   }
@@ -85,6 +92,12 @@ const Dataset& dataset(const DatasetKey& key) {
   data->reference = make_reference(*data);
   made.push_back(std::move(data));
   return *made.back();
+}
+
+void forget_other_datasets(const DatasetKey& key) {
+  std::erase_if(made_datasets(), [&](const std::unique_ptr<Dataset>& data) {
+    return data->key.family() != key.family() || data->key.size() != key.size();
+  });
 }
 
 std::string compare_normals(std::span<const float> normals, std::span<const float> expected,

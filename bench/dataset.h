@@ -13,12 +13,15 @@ namespace hedgerow::bench {
 
 /// What a benchmark runs on, by name; cheap to copy.
 struct DatasetKey {
-  std::string shape;  ///< "grid", "shuffled", "icosphere", "fan", or the stem of a file
+  std::string shape;                ///< as in mesh_source.h, or the stem of a file
   std::int64_t triangle_count = 0;  ///< asked for; icospheres take the nearest that exists
   std::string path;                 ///< of the file; empty: generated
 
   /// "4M", "10k", "871k"
   [[nodiscard]] std::string size() const;
+  /// The shape, but for a dataset that is only measured to be compared with another one, in turns:
+  /// then that one's.
+  [[nodiscard]] std::string family() const;
   friend bool operator==(const DatasetKey&, const DatasetKey&) = default;
 };
 
@@ -55,6 +58,9 @@ struct Counts {
 /// Makes the dataset on the first call and keeps it. Seeds are fixed, so every run measures the
 /// same mesh. Throws std::runtime_error with the reason if a file cannot be read.
 [[nodiscard]] const Dataset& dataset(const DatasetKey& key);
+
+/// Frees all datasets but those of the same family and size: references to them die.
+void forget_other_datasets(const DatasetKey& key);
 
 /// Empty if `normals` (three floats an element) agrees with `expected` to within `tolerance` in
 /// every coordinate, else a sentence that names the first element that does not. `skipped`

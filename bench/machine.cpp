@@ -5,8 +5,6 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <benchmark/benchmark.h>
-
 #include "hedgerow/index.h"
 
 namespace hedgerow::bench {
@@ -59,12 +57,13 @@ std::string compiler_name() {
 
 }  // namespace
 
-void add_machine_context() {
+std::vector<std::pair<std::string, std::string>> machine_context() {
   const std::string cpu = "/sys/devices/system/cpu/cpu0";
   const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
   const double gib = pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024 * 1024);
-  const auto add = [](const char* key, const std::string& value) {
-    benchmark::AddCustomContext(key, value);
+  std::vector<std::pair<std::string, std::string>> context;
+  const auto add = [&](const char* key, const std::string& value) {
+    context.emplace_back(key, value);
   };
   add("cpu", value_of("/proc/cpuinfo", "model name"));
   add("processors", std::to_string(sysconf(_SC_NPROCESSORS_ONLN)));
@@ -80,6 +79,7 @@ void add_machine_context() {
   add("index_bits", std::to_string(8 * sizeof(Index)));
   add("peers", HEDGEROW_BENCH_PEERS);
   add("benchmark_library", HEDGEROW_BENCH_LIBRARY);
+  return context;
 }
 
 }  // namespace hedgerow::bench

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace hedgerow::bench {
 
-/// Adds to the header of the results what a reader needs to judge them: processor, memory, system,
-/// huge pages, governor, compiler, flags, index width, versions of the peers, and what is known to
-/// be odd about the framework.
-void add_machine_context();
+/// What a reader needs to judge the results, by name: processor, memory, system, huge pages,
+/// governor, compiler, flags, index width, path of the kernels, versions of the peers, and what is
+/// known to be odd about the framework.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> machine_context();
 
 }  // namespace hedgerow::bench

@@ -1,127 +1,117 @@
-#include <algorithm>
-#include <cstdint>
+#include <cstddef>
 #include <cstdlib>
-#include <filesystem>
+#include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
-#include <string_view>
-#include <thread>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
+#include "counting.h"
 #include "machine.h"
-#include "mesh_source.h"
+#include "plan.h"
+#include "rounds.h"
 #include "runner.h"
 
 namespace {
 
-using hedgerow::bench::DatasetKey;
 using hedgerow::bench::Plan;
+using hedgerow::bench::PlanOptions;
+using hedgerow::bench::RoundsOptions;
 
-constexpr std::string_view kHelp =
-    "hedgerow_bench [--mesh FILE] [--smoke] [--benchmark_...]\n"
-    "\n"
-    "  --mesh FILE   also measure on this mesh (default: the environment's HEDGEROW_MESH, if set)\n"
-    "  --smoke       every benchmark once, on tiny meshes; exit status 1 if one gives a wrong "
-    "answer\n"
-    "\n"
-    "Benchmarks are named operation/dataset/size/threads, with /variant behind it for a baseline "
-    "or\n"
-    "a peer library. An item is a half-edge. Each answer is checked before it is timed.\n"
-    "Example: hedgerow_bench --benchmark_filter='^build/grid/4M'\n";
+struct Options {
+  PlanOptions plan;
+  RoundsOptions rounds;
+  std::string counted;  // regular expression
+  std::vector<std::string> others;
+};
 
-/// Takes `--name VALUE` and `--name=VALUE` out of the arguments; the last one counts.
-std::string take_value(std::vector<char*>& arguments, std::string_view name) {
-  std::string value;
-  for (std::size_t i = 1; i < arguments.size();) {
-    const std::string_view argument = arguments[i];
-    const bool is_joined =
-        argument.size() > name.size() && argument.starts_with(name) && argument[name.size()] == '=';
-    const bool is_split = argument == name && i + 1 < arguments.size();
-    if (!is_joined && !is_split) {
-      ++i;
-      continue;
-    }
-    value = is_joined ? argument.substr(name.size() + 1) : std::string_view(arguments[i + 1]);
-    const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(i);
-    arguments.erase(first, first + (is_joined ? 1 : 2));
-  }
-  return value;
+void describe(CLI::App& app, Options& options) {
+  app.footer(
+      "Without --out, Google Benchmark runs one after the other, for a look, and takes its own\n"
+      "options (--benchmark_filter=REGEX and others). Names are operation/dataset/size/threads,\n"
+      "with /variant behind it for a baseline, a peer library or another way. An item is a\n"
+      "half-edge. Each answer is checked before it is timed; one that is wrong gives status 1.\n"
+      "Example: hedgerow_bench --benchmark_filter='^build/grid/4M'");
+  app.add_option("--out", options.rounds.out,
+                 "Measure in rounds, for the record, and write every time as JSON");
+  app.add_option("--rounds", options.rounds.rounds, "How often each benchmark is measured")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--budget", options.rounds.budget_seconds,
+                 "After so many seconds a slow one is measured no more than twice")
+      ->capture_default_str();
+  app.add_option("--filter", options.rounds.filter, "Only what has such a name, in rounds");
+  app.add_option("--count", options.counted,
+                 "Run what has such a name once, on one thread, for bench/count.py");
+  app.add_option("--mesh", options.plan.meshes,
+                 "Measure on this file, too; from the second on, only how the builder chooses")
+      ->envname("HEDGEROW_MESH")
+      ->type_name("FILE");
+  app.add_option("--threads", options.plan.threads, "Numbers of threads (default: 1 and all)")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--largest", options.plan.largest,
+                 "Triangles of the largest meshes (default: by cache and memory)");
+  app.add_flag("--smoke", options.plan.is_smoke, "Every benchmark once, on tiny meshes");
+  app.allow_extras();
 }
 
-bool take_switch(std::vector<char*>& arguments, std::string_view name) {
-  return std::erase_if(arguments, [&](const char* argument) { return argument == name; }) > 0;
+void add_all(const Plan& plan) {
+  add_bandwidth(plan);
+  add_buffer(plan);
+  add_build(plan);
+  add_boundary(plan);
+  add_normals(plan);
+  add_circulate(plan);
+  add_query(plan);
+  add_validate(plan);
+  add_reorder(plan);
 }
 
-bool has_prefix(const std::vector<char*>& arguments, std::string_view prefix) {
-  for (const std::string_view argument : arguments) {
-    if (argument.starts_with(prefix)) return true;
-  }
-  return false;
+/// Hands what is left of the command line to Google Benchmark; false if that does not know it.
+bool initialise_benchmark(const char* program, const std::vector<std::string>& others) {
+  std::vector<std::string> texts{program};
+  texts.insert(texts.end(), others.begin(), others.end());
+  std::vector<char*> arguments;
+  for (std::string& text : texts) arguments.push_back(text.data());
+  auto count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  return !benchmark::ReportUnrecognizedArguments(count, arguments.data());
 }
 
-Plan make_plan(bool is_smoke, const std::string& mesh) {
-  Plan plan;
-  plan.is_smoke = is_smoke;
-  const auto processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  for (int threads = 1; threads < processors; threads *= 2) plan.threads.push_back(threads);
-  plan.threads.push_back(processors);
-  if (is_smoke) {
-    plan.large = {{"grid", 200, ""}, {"shuffled", 200, ""}};
-    plan.all = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"icosphere", 320, ""}, {"fan", 300, ""}};
-  } else {
-    // One size for each of: second-level cache, last-level cache, memory.
-    plan.large = {{"grid", 4'000'000, ""}, {"shuffled", 4'000'000, ""}};
-    plan.all = {{"grid", 10'000, ""},        {"grid", 1'000'000, ""},      {"grid", 4'000'000, ""},
-                {"shuffled", 4'000'000, ""}, {"icosphere", 1'310'720, ""}, {"fan", 1'000'000, ""}};
+int run_chosen(const Options& options) {
+  if (!options.counted.empty()) return hedgerow::bench::count_cases(options.counted);
+  if (!options.rounds.out.empty()) return hedgerow::bench::run_rounds(options.rounds);
+  for (const auto& [key, value] : hedgerow::bench::machine_context()) {
+    benchmark::AddCustomContext(key, value);
   }
-  if (!mesh.empty()) {
-    const std::int64_t face_count = hedgerow::bench::read_soup(mesh).face_count();
-    const DatasetKey key{std::filesystem::path(mesh).stem().string(), face_count, mesh};
-    plan.large.push_back(key);
-    plan.all.push_back(key);
+  bool has_output_file = false;
+  for (const std::string& text : options.others) {
+    has_output_file |= text.starts_with("--benchmark_out=");
   }
-  return plan;
+  return hedgerow::bench::run_all(has_output_file);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<char*> arguments(argv, argv + argc);
-  if (take_switch(arguments, "--help")) {
-    std::cout << kHelp;
-    return 0;
-  }
-  const bool is_smoke = take_switch(arguments, "--smoke");
-  std::string mesh = take_value(arguments, "--mesh");
-  const char* environment_mesh = std::getenv("HEDGEROW_MESH");
-  if (mesh.empty() && environment_mesh != nullptr && !is_smoke) mesh = environment_mesh;
-  const bool has_output_file = has_prefix(arguments, "--benchmark_out=");
-
-  auto count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
-  hedgerow::bench::add_machine_context();
-
-  Plan plan;
+  CLI::App app("Times the engine, and other mesh libraries beside it.", "hedgerow_bench");
+  Options options;
+  describe(app, options);
+  CLI11_PARSE(app, argc, argv);
+  options.others = app.remaining();
+  options.rounds.is_smoke = options.plan.is_smoke;
+  if (options.plan.is_smoke) options.plan.meshes.clear();
+  if (!initialise_benchmark(argv[0], options.others)) return 2;
   try {
-    plan = make_plan(is_smoke, mesh);
-  } catch (const std::runtime_error& error) {
+    add_all(hedgerow::bench::make_plan(options.plan));
+    const int error_count = run_chosen(options);
+    benchmark::Shutdown();
+    return error_count == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
     std::cerr << "hedgerow_bench: " << error.what() << "\n";
     return 3;
   }
-  hedgerow::bench::add_bandwidth(plan);
-  hedgerow::bench::add_buffer(plan);
-  hedgerow::bench::add_build(plan);
-  hedgerow::bench::add_boundary(plan);
-  hedgerow::bench::add_normals(plan);
-  hedgerow::bench::add_circulate(plan);
-  hedgerow::bench::add_query(plan);
-  hedgerow::bench::add_validate(plan);
-  hedgerow::bench::add_reorder(plan);
-  const int error_count = hedgerow::bench::run_all(has_output_file);
-  benchmark::Shutdown();
-  return error_count == 0 ? 0 : 1;
 }

@@ -1,9 +1,14 @@
 #include "mesh_source.h"
 
+#include <algorithm>
 #include <optional>
+#include <random>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "hedgerow/build.h"
+#include "hedgerow/reorder.h"
 #include "hedgerow/shapes.h"
 #if defined(HEDGEROW_BENCH_IO)
 #include "hedgerow/io/read.h"
@@ -14,10 +19,42 @@ namespace hedgerow::bench {
 namespace {
 
 constexpr std::uint64_t kShuffleSeed = 1;
+constexpr std::string_view kMoved = "moved-";
 
 Soup value_or_throw(Result<Soup> soup, const std::string& shape) {
   if (!soup) throw std::runtime_error(shape + ": " + name(soup.error().code));
   return std::move(*soup);
+}
+
+/// Renumbered along a Hilbert curve by the engine. \pre triangles only
+Soup reordered(const Soup& soup, const std::string& shape) {
+  BuildOptions options;
+  options.borrow_corners = true;
+  const Result<BuildOutput> built = build(soup.face_list(), options, Execution::serial());
+  if (!built) throw std::runtime_error(shape + ": " + name(built.error().code));
+  const Result<ReorderOutput> output =
+      reorder(built->mesh, soup.positions(), ReorderMethod::hilbert, Execution::serial());
+  if (!output) throw std::runtime_error(shape + ": " + name(output.error().code));
+  Soup result;
+  result.corners = Buffer<Index>::copy_of(output->mesh.origin());
+  result.xyz = Buffer<float>(soup.xyz.size());
+  fill_permuted<float>(output->reordering.vertices_new_to_old.span(), soup.xyz.span(),
+                       result.xyz.span(), 3);
+  return result;
+}
+
+/// `per_mille` of the faces, chosen at random, take each other's places.
+Soup moved(Soup soup, std::int64_t per_mille) {
+  std::mt19937_64 random(kShuffleSeed);
+  const auto count = static_cast<std::uint64_t>(soup.face_count());
+  // A swap moves two faces.
+  for (std::uint64_t swap = 0; swap < count * static_cast<std::uint64_t>(per_mille) / 2000;
+       ++swap) {
+    Index* a = soup.corners.data() + 3 * (random() % count);
+    Index* b = soup.corners.data() + 3 * (random() % count);
+    if (a != b) std::swap_ranges(a, a + 3, b);
+  }
+  return soup;
 }
 
 }  // namespace
@@ -25,6 +62,11 @@ Soup value_or_throw(Result<Soup> soup, const std::string& shape) {
 Soup generate_soup(const std::string& shape, std::int64_t triangle_count) {
   if (shape == "shuffled")
     return shapes::shuffled(generate_soup("grid", triangle_count), kShuffleSeed);
+  if (shape == "reordered") return reordered(generate_soup("shuffled", triangle_count), shape);
+  if (shape == "scan") return reordered(generate_soup("gyroid", triangle_count), shape);
+  if (shape.starts_with(kMoved)) {
+    return moved(generate_soup("grid", triangle_count), std::stoll(shape.substr(kMoved.size())));
+  }
   // A closed fan: the vertex in the middle has as many neighbours as there are triangles.
   if (shape == "fan")
     return value_or_throw(shapes::fan(triangle_count, shapes::FanEnds::closed), shape);

@@ -8,6 +8,7 @@
 #include "hedgerow/workspace.h"
 #include "peers/measured_mesh.h"
 #include "runner.h"
+#include "stored_form.h"
 
 namespace hedgerow::bench {
 
@@ -28,6 +29,10 @@ using Compute = Result<NormalStats> (*)(const Dataset&, const NormalOptions&, co
 
 Result<NormalStats> compute_faces(const Dataset& data, const NormalOptions& options,
                                   const Execution& execution, Output& out) {
+  return face_normals(data.mesh, data.positions(), out.view(), options, execution);
+}
+Result<NormalStats> compute_list_faces(const Dataset& data, const NormalOptions& options,
+                                       const Execution& execution, Output& out) {
   return face_normals(data.faces(), data.positions(), out.view(), options, execution);
 }
 Result<NormalStats> compute_facelist(const Dataset& data, const NormalOptions& options,
@@ -41,10 +46,14 @@ Result<NormalStats> compute_halfedge(const Dataset& data, const NormalOptions& o
                                out.workspace);
 }
 
+bool is_of_faces(Compute compute) {
+  return compute == compute_faces || compute == compute_list_faces;
+}
+
 /// What `weight` should give where the reference has it: the others are compared with each other.
 const std::vector<float>* expected_normals(const Dataset& data, Compute compute,
                                            NormalWeight weight) {
-  if (compute == compute_faces) return &data.reference.face_normals;
+  if (is_of_faces(compute)) return &data.reference.face_normals;
   if (weight == NormalWeight::area) return &data.reference.area_normals;
   if (weight == NormalWeight::uniform) return &data.reference.uniform_normals;
   return nullptr;
@@ -53,7 +62,7 @@ const std::vector<float>* expected_normals(const Dataset& data, Compute compute,
 Work prepare_engine(const Dataset& data, const Execution& execution, Compute compute,
                     NormalWeight weight) {
   const NormalOptions options{.weight = weight};
-  const bool is_face = compute == compute_faces;
+  const bool is_face = is_of_faces(compute);
   auto out = std::make_shared<Output>(is_face ? data.mesh.face_count() : data.mesh.vertex_count());
   Work work;
   work.run = [&data, execution, options, compute, out] {
@@ -101,29 +110,39 @@ Work prepare_peer(const Dataset& data, const Peer& peer, bool is_face) {
   return work;
 }
 
-double face_bytes(const Dataset& data) {
+/// Reads corners and positions, as all do; writes a normal a face.
+Traffic face_traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return kIndexBytes * counts.halfedges + kPointBytes * (counts.vertices + counts.faces);
+  return {kIndexBytes * counts.halfedges + kPointBytes * counts.vertices,
+          kPointBytes * counts.faces};
 }
-double facelist_bytes(const Dataset& data) {
-  const Counts counts = counts_of(data);
-  return kIndexBytes * counts.halfedges + 2 * kPointBytes * counts.vertices;
+Traffic facelist_traffic(const Dataset& data) {
+  return {face_traffic(data).read, kPointBytes * counts_of(data).vertices};
 }
-/// Beside what the face list takes: `opposite`, and `outgoing`.
-double halfedge_bytes(const Dataset& data) {
+/// Reads `opposite` and `outgoing` besides.
+Traffic halfedge_traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return facelist_bytes(data) + kIndexBytes * (counts.halfedges + counts.vertices);
+  const Traffic list = facelist_traffic(data);
+  return {list.read + kIndexBytes * (counts.halfedges + counts.vertices), list.written};
+}
+/// Reads `next` besides.
+Traffic stored_traffic(const Dataset& data) {
+  const Traffic walk = halfedge_traffic(data);
+  return {walk.read + kIndexBytes * counts_of(data).halfedges, walk.written};
 }
 
 struct Operation {
   const char* name;
   Compute compute;
-  double (*bytes)(const Dataset&);
+  Traffic (*traffic)(const Dataset&);
+  const char* family;
 };
 constexpr std::array<Operation, 3> kOperations = {
-    {{"face_normals", compute_faces, face_bytes},
-     {"vertex_normals_facelist", compute_facelist, facelist_bytes},
-     {"vertex_normals_halfedge", compute_halfedge, halfedge_bytes}}};
+    {{"face_normals", compute_faces, face_traffic, "face_normals"},
+     {"vertex_normals_facelist", compute_facelist, facelist_traffic, "vertex_normals"},
+     {"vertex_normals_halfedge", compute_halfedge, halfedge_traffic, "vertex_normals"}}};
+
+constexpr Operation kListFaces = {"face_normals", compute_list_faces, face_traffic, "face_normals"};
 
 constexpr std::array<std::pair<NormalWeight, const char*>, 3> kOtherWeights = {
     {{NormalWeight::uniform, "uniform"},
@@ -137,37 +156,61 @@ void add_engine(const Plan& plan, const Operation& operation, const DatasetKey& 
        [compute = operation.compute, weight](const Dataset& data, const Execution& execution) {
          return prepare_engine(data, execution, compute, weight);
        },
-       operation.bytes});
+       operation.traffic, Mix::triad, operation.family});
+}
+
+void add_peer(const Plan& plan, const DatasetKey& key, const Peer& peer, bool is_face) {
+  // Libraries that keep half-edges walk them for vertex normals; their time includes the face
+  // normals that they need first.
+  const Operation& operation = is_face ? kOperations[0] : kOperations[2];
+  add(plan, {operation.name, key, 1, peer.name,
+             [&peer, is_face](const Dataset& data, const Execution&) {
+               return prepare_peer(data, peer, is_face);
+             },
+             operation.traffic, Mix::triad, operation.family});
+}
+
+Work prepare_stored(const Dataset& data, const Execution& execution) {
+  auto out = std::make_shared<Output>(data.mesh.vertex_count());
+  Work work;
+  work.run = [mesh = stored_form(data), &data, execution, out] {
+    static_cast<void>(
+        gather_vertex_normals(*mesh, data.positions(), out->view(), {}, execution, out->workspace));
+  };
+  work.run();
+  work.error = compare_normals(out->values.span(), data.reference.area_normals, kNormalTolerance,
+                               vertices_with_several_fans(data.mesh));
+  return work;
 }
 
 }  // namespace
 
 void add_normals(const Plan& plan) {
-  for (const Operation& operation : kOperations) {
-    for (const DatasetKey& key : plan.all) {
+  for (const DatasetKey& key : plan.all) {
+    for (const Operation& operation : kOperations) {
       for (const int threads : plan.threads) {
         add_engine(plan, operation, key, threads, NormalWeight::area, "");
       }
     }
-    if (operation.compute == compute_faces) continue;
-    for (const auto& [weight, variant] : kOtherWeights) {
-      for (const int threads : plan.threads) {
-        add_engine(plan, operation, plan.large.front(), threads, weight, variant);
-      }
+    if (!plan.has_peers(key)) continue;
+    for (const Peer& peer : peers()) {
+      if (!peer.has_normals) continue;
+      for (const bool is_face : {true, false}) add_peer(plan, key, peer, is_face);
     }
   }
   for (const DatasetKey& key : plan.large) {
-    for (const Peer& peer : peers()) {
-      if (!peer.has_normals) continue;
-      for (const bool is_face : {true, false}) {
-        // Libraries that keep half-edges walk them for vertex normals; their time includes the face
-        // normals that they need first.
-        const Operation& operation = is_face ? kOperations[0] : kOperations[2];
-        add(plan, {operation.name, key, 1, peer.name,
-                   [&peer, is_face](const Dataset& data, const Execution&) {
-                     return prepare_peer(data, peer, is_face);
-                   },
-                   operation.bytes});
+    for (const int threads : plan.threads) {
+      add_engine(plan, kListFaces, key, threads, NormalWeight::area, "list");
+      add(plan, {"vertex_normals_halfedge", key, threads, "stored", prepare_stored, stored_traffic,
+                 Mix::triad, "vertex_normals"});
+      for (const Operation& operation : {kOperations[1], kOperations[2]}) {
+        for (const auto& [weight, variant] : kOtherWeights) {
+          // All weights on one dataset; on the others the one that is far more work.
+          const bool is_first = key == plan.large.front();
+          if (is_first || weight == NormalWeight::angle) {
+            add_engine(plan, operation, key, threads, weight, variant);
+          }
+        }
       }
     }
   }

@@ -1,18 +1,22 @@
 // hedgerow/query.h: questions about the whole mesh.
 #include <memory>
+#include <utility>
 
 #include "hedgerow/query.h"
 #include "peers/measured_mesh.h"
 #include "runner.h"
+#include "stored_form.h"
 
 namespace hedgerow::bench {
 
 namespace {
 
-Work prepare_loops(const Dataset& data, const Execution&) {
+/// Over the mesh of `data`, or over `stored` if there is one.
+Work prepare_loops(const Dataset& data, std::shared_ptr<const Connectivity> stored) {
   auto loops = std::make_shared<BoundaryLoops>();
+  const Connectivity& mesh = stored ? *stored : data.mesh;
   Work work;
-  work.run = [&data, loops] { *loops = boundary_loops(data.mesh); };
+  work.run = [&mesh, stored = std::move(stored), loops] { *loops = boundary_loops(mesh); };
   work.run();
   if (loops->count() != data.reference.boundary_loops) {
     work.error = "another number of boundary loops than the reference; not measured";
@@ -46,28 +50,39 @@ Work prepare_peer_components(const Dataset& data, const Peer& peer) {
 }
 
 /// Reads opposite.
-double loops_bytes(const Dataset& data) { return kIndexBytes * counts_of(data).halfedges; }
+Traffic loops_traffic(const Dataset& data) { return {kIndexBytes * counts_of(data).halfedges, 0}; }
 /// Reads origin; writes a label for each vertex.
-double components_bytes(const Dataset& data) {
+Traffic components_traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return kIndexBytes * (counts.halfedges + counts.vertices);
+  return {kIndexBytes * counts.halfedges, kIndexBytes * counts.vertices};
 }
 
 }  // namespace
 
 void add_query(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
-    add(plan, {"boundary_loops", key, 1, "", prepare_loops, loops_bytes});
+    add(plan, {"boundary_loops", key, 1, "stored",
+               [](const Dataset& data, const Execution&) {
+                 return prepare_loops(data, stored_form(data));
+               },
+               loops_traffic, Mix::read});
+  }
+  for (const DatasetKey& key : plan.all) {
+    add(plan, {"boundary_loops", key, 1, "",
+               [](const Dataset& data, const Execution&) { return prepare_loops(data, nullptr); },
+               loops_traffic, Mix::read});
     for (const int threads : plan.threads) {
-      add(plan, {"components", key, threads, "", prepare_components, components_bytes});
+      add(plan,
+          {"components", key, threads, "", prepare_components, components_traffic, Mix::read});
     }
+    if (!plan.has_peers(key)) continue;
     for (const Peer& peer : peers()) {
       if (!peer.is_baseline) continue;
       add(plan, {"components", key, 1, peer.name,
                  [&peer](const Dataset& data, const Execution&) {
                    return prepare_peer_components(data, peer);
                  },
-                 components_bytes});
+                 components_traffic, Mix::read});
     }
   }
 }

@@ -19,9 +19,10 @@ constexpr std::array<std::pair<ReorderMethod, const char*>, 3> kMethods = {
 
 /// Reads origin, opposite, outgoing and the positions; writes the three columns and the
 /// permutations (vertices both ways, faces, half-edges).
-double compulsory_bytes(const Dataset& data) {
+Traffic traffic(const Dataset& data) {
   const auto [halfedges, vertices, faces] = counts_of(data);
-  return kIndexBytes * (5 * halfedges + 4 * vertices + faces) + kPointBytes * vertices;
+  return {kIndexBytes * (2 * halfedges + vertices) + kPointBytes * vertices,
+          kIndexBytes * (3 * halfedges + 3 * vertices + faces)};
 }
 
 /// Empty, or how the result is not the same mesh in another order.
@@ -68,7 +69,7 @@ void add_reorder(const Plan& plan) {
                    [method = method](const Dataset& data, const Execution& execution) {
                      return prepare(data, execution, method);
                    },
-                   compulsory_bytes});
+                   traffic, Mix::copy});
       }
     }
   }

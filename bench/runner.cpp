@@ -1,5 +1,6 @@
 #include "runner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -38,16 +39,14 @@ const Work& prepare(const std::string& name, const Case& benchmark, const Datase
   return last.work;
 }
 
-/// Seconds that all threads of this process have run.
-double processor_time() noexcept {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+std::vector<Case>& mutable_cases() {
+  static std::vector<Case> cases;
+  return cases;
 }
 
-void measure(benchmark::State& state, const std::string& name, const Case& benchmark) try {
+void measure(benchmark::State& state, const std::string& case_name, const Case& benchmark) try {
   const Dataset& data = dataset(benchmark.data);
-  const Work& work = prepare(name, benchmark, data);
+  const Work& work = prepare(case_name, benchmark, data);
   if (!work.error.empty()) {
     state.SkipWithError(work.error.c_str());
     return;
@@ -64,15 +63,9 @@ void measure(benchmark::State& state, const std::string& name, const Case& bench
   }
   const auto iterations = static_cast<double>(state.iterations());
   const Counts counts = counts_of(data);
-  const double bytes = benchmark.compulsory_bytes(data);
+  const double bytes = benchmark.traffic(data).total();
   state.SetItemsProcessed(static_cast<std::int64_t>(iterations * counts.halfedges));
   state.SetBytesProcessed(static_cast<std::int64_t>(iterations * bytes));
-  state.counters["halfedges"] = counts.halfedges;
-  state.counters["vertices"] = counts.vertices;
-  state.counters["faces"] = counts.faces;
-  state.counters["mesh_bytes"] = static_cast<double>(data.mesh.bytes());
-  state.counters["bytes"] = bytes;
-  // Far below the time that passed (times the threads): others had the processors meanwhile.
   state.counters["processor_ns"] = processor_seconds / iterations * 1e9;
 } catch (const std::runtime_error& error) {
   state.SkipWithError(error.what());
@@ -93,12 +86,9 @@ class PlainNames final : public Base {
       run.run_name = {};
       run.run_name.function_name = name;
       if (run.error_occurred) ++error_count_;
-      // Inputs, not results: for the tables, not for the terminal.
       if constexpr (std::is_same_v<Base, benchmark::ConsoleReporter>) {
-        for (const char* input :
-             {"bytes", "faces", "halfedges", "mesh_bytes", "processor_ns", "vertices"}) {
-          run.counters.erase(input);
-        }
+        run.counters.erase("bytes");
+        run.counters.erase("processor_ns");
       }
     }
     Base::ReportRuns(plain);
@@ -119,13 +109,39 @@ Execution execution_with(int threads) {
   return Execution::in(*arena);
 }
 
+double processor_time() noexcept {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+const char* name(Mix mix) noexcept {
+  return mix == Mix::read ? "read" : mix == Mix::copy ? "copy" : "triad";
+}
+
+std::string Case::name() const {
+  std::string text =
+      operation + "/" + data.shape + "/" + data.size() + "/" + std::to_string(threads);
+  if (!variant.empty()) text += "/" + variant;
+  return text;
+}
+
+std::string Case::group() const {
+  return (family.empty() ? operation : family) + "/" + data.family() + "/" + data.size();
+}
+
+bool Plan::has_peers(const DatasetKey& key) const {
+  return std::ranges::find(with_peers, key) != with_peers.end();
+}
+
+const std::vector<Case>& all_cases() { return mutable_cases(); }
+
 void add(const Plan& plan, Case benchmark) {
-  std::string name = benchmark.operation + "/" + benchmark.data.shape + "/" +
-                     benchmark.data.size() + "/" + std::to_string(benchmark.threads);
-  if (!benchmark.variant.empty()) name += "/" + benchmark.variant;
+  const std::string case_name = benchmark.name();
+  mutable_cases().push_back(benchmark);
   auto* registered = benchmark::RegisterBenchmark(
-      name.c_str(), [name, benchmark = std::move(benchmark)](benchmark::State& state) {
-        measure(state, name, benchmark);
+      case_name.c_str(), [case_name, benchmark = std::move(benchmark)](benchmark::State& state) {
+        measure(state, case_name, benchmark);
       });
   registered->UseManualTime()->Unit(benchmark::kMillisecond);
   if (plan.is_smoke) registered->Iterations(1);

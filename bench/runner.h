@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,32 @@ namespace hedgerow::bench {
 
 /// The work of one benchmark, ready to be timed.
 struct Work {
-  std::function<void()> run;      ///< timed
-  std::function<void()> cleanup;  ///< not timed, after each run; may be empty
-  std::string error;              ///< why it must not be timed: the answer is wrong; else empty
+  std::function<void()> run;            ///< timed
+  std::function<void()> cleanup;        ///< not timed, after each run; may be empty
+  std::string error;                    ///< why it must not be timed: the answer is wrong; else ""
+  std::map<std::string, double> notes;  ///< what else the row should say, by name
 };
 
+/// Bytes that any implementation of an operation has to move: each input column read once, each
+/// output column written once, nothing for lines that are read before they are overwritten.
+struct Traffic {
+  double read = 0;
+  double written = 0;
+
+  [[nodiscard]] double total() const noexcept { return read + written; }
+};
+
+/// Which bandwidth kernel mixes reads and writes as an operation does.
+enum class Mix {
+  read,   ///< reads only, or nearly
+  copy,   ///< as much written as read
+  triad,  ///< twice as much read as written, or more
+};
+/// "read", "copy", "triad"
+[[nodiscard]] const char* name(Mix mix) noexcept;
+
 /// One benchmark, named `operation/dataset/size/threads`, with `/variant` behind it if it is not
-/// the engine that is measured.
+/// the engine that is measured, or the engine in another way.
 struct Case {
   std::string operation;
   DatasetKey data;
@@ -25,23 +45,40 @@ struct Case {
   std::string variant;
   /// Sets the work up, runs it once and compares the answer with the reference.
   std::function<Work(const Dataset&, const Execution&)> prepare;
-  /// Bytes that any implementation of the operation has to move, for GB/s.
-  std::function<double(const Dataset&)> compulsory_bytes;
+  std::function<Traffic(const Dataset&)> traffic;
+  Mix mix = Mix::triad;
+  /// Cases of one family on one dataset run in turns, so that the ratio of two of them is not that
+  /// of two moments; empty: the operation.
+  std::string family{};
+
+  [[nodiscard]] std::string name() const;
+  [[nodiscard]] std::string group() const;
 };
 
 /// What to register: from the command line.
 struct Plan {
-  std::vector<DatasetKey> all;    ///< every dataset
-  std::vector<DatasetKey> large;  ///< those that do not fit a cache: peers and slow operations
-  std::vector<int> threads;       ///< 1, 2, 4 .. the number of processors
-  bool is_smoke = false;          ///< tiny meshes, one iteration each
+  std::vector<DatasetKey> all;         ///< the main operations
+  std::vector<DatasetKey> with_peers;  ///< baselines and peer libraries as well
+  std::vector<DatasetKey> large;       ///< variants and whole-mesh operations as well
+  std::vector<DatasetKey> disordered;  ///< the two strategies of the builder, and nothing else
+  std::vector<int> threads;
+  bool is_smoke = false;  ///< tiny meshes, one iteration each
+
+  [[nodiscard]] bool has_peers(const DatasetKey& key) const;
 };
 
 /// Registers one benchmark. An item is a half-edge, always.
 void add(const Plan& plan, Case benchmark);
 
+/// All that were registered, in that order.
+[[nodiscard]] const std::vector<Case>& all_cases();
+
 /// An arena of `threads` threads, kept for the whole run; serial for 1.
 [[nodiscard]] Execution execution_with(int threads);
+
+/// Seconds that all threads of this process have run. Far below the time that passed (times the
+/// threads): others had the processors meanwhile.
+[[nodiscard]] double processor_time() noexcept;
 
 // One for each source file of benchmarks.
 void add_bandwidth(const Plan& plan);
@@ -54,11 +91,12 @@ void add_query(const Plan& plan);
 void add_reorder(const Plan& plan);
 void add_validate(const Plan& plan);
 
-/// Runs what was registered and passed the filter; returns the number that reported an error.
+/// Runs what was registered and passed the filter with Google Benchmark, one after the other, for
+/// a look; returns the number that reported an error.
 /// \pre `has_output_file` says whether --benchmark_out was given.
 [[nodiscard]] int run_all(bool has_output_file);
 
-/// Bytes of one index, as a factor for `compulsory_bytes`.
+/// Bytes of one index, as a factor for `Case::traffic`.
 inline constexpr double kIndexBytes = sizeof(Index);
 inline constexpr double kPointBytes = 3 * sizeof(float);
 

@@ -8,9 +8,10 @@ namespace hedgerow::bench {
 
 namespace {
 
-double compulsory_bytes(const Dataset& data) {
+/// Reads origin, opposite and outgoing.
+Traffic traffic(const Dataset& data) {
   const Counts counts = counts_of(data);
-  return kIndexBytes * (2 * counts.halfedges + counts.vertices);
+  return {kIndexBytes * (2 * counts.halfedges + counts.vertices), 0};
 }
 
 /// A copy whose first opposite is wrong: what must be found before finding nothing means anything.
@@ -44,7 +45,7 @@ Work prepare(const Dataset& data, const Execution& execution) {
 void add_validate(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      add(plan, {"validate", key, threads, "", prepare, compulsory_bytes});
+      add(plan, {"validate", key, threads, "", prepare, traffic, Mix::read});
     }
   }
 }

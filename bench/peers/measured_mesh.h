@@ -47,11 +47,13 @@ struct Peer {
   bool is_baseline;  ///< one of ours, so measured on every input
 };
 
-/// The mesh that `peer` builds, kept until another one is asked for: building takes longer than
-/// most measurements. Null where the library refuses the faces. Lifetime   That of the face list's
-/// arrays, which tell one mesh from another, must be longer.
+/// The mesh that `peer` builds, kept until faces of another mesh are asked for: building takes
+/// longer than most measurements. Null where the library refuses the faces.
+/// Lifetime   That of the face list's arrays, which tell one mesh from another, must be longer.
 [[nodiscard]] std::shared_ptr<MeasuredMesh> built_mesh(const Peer& peer, const FaceList& faces,
                                                        Positions positions);
+/// Frees those that are kept, before the arrays of their faces are freed.
+void forget_built_meshes();
 
 /// The baselines, then the peer libraries that were found when this was built.
 [[nodiscard]] std::span<const Peer> peers();

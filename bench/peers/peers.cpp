@@ -1,5 +1,7 @@
 #include "peers/peers.h"
 
+#include <map>
+
 namespace hedgerow::bench {
 
 std::span<const Peer> peers() {
@@ -16,18 +18,28 @@ std::span<const Peer> peers() {
   return all;
 }
 
+namespace {
+
+struct BuiltMeshes {
+  const void* corners = nullptr;
+  std::map<const Peer*, std::shared_ptr<MeasuredMesh>> meshes;
+};
+BuiltMeshes& built_meshes() {
+  static BuiltMeshes built;
+  return built;
+}
+
+}  // namespace
+
 std::shared_ptr<MeasuredMesh> built_mesh(const Peer& peer, const FaceList& faces,
                                          Positions positions) {
-  static const Peer* last_peer = nullptr;
-  static const void* last_corners = nullptr;
-  static std::shared_ptr<MeasuredMesh> last;
-  if (last_peer != &peer || last_corners != faces.corners) {
-    last.reset();  // before the next one takes its memory
-    last = peer.build(faces, positions);
-    last_peer = &peer;
-    last_corners = faces.corners;
-  }
-  return last;
+  BuiltMeshes& built = built_meshes();
+  if (built.corners != faces.corners) built = {faces.corners, {}};
+  const auto found = built.meshes.find(&peer);
+  if (found != built.meshes.end()) return found->second;
+  return built.meshes[&peer] = peer.build(faces, positions);
 }
+
+void forget_built_meshes() { built_meshes() = {}; }
 
 }  // namespace hedgerow::bench
