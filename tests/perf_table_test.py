@@ -1,121 +1,230 @@
 #!/usr/bin/env python3
-"""Tests of bench/perf_table.py on results made by hand."""
+"""Tests of bench/perf_table.py and what it is made of, on results made by hand."""
 
-import importlib.util
 import json
 import pathlib
+import sys
 import tempfile
 import unittest
 
-PATH = pathlib.Path(__file__).resolve().parent.parent / "bench" / "perf_table.py"
-SPEC = importlib.util.spec_from_file_location("perf_table", PATH)
-perf_table = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(perf_table)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "bench"))
+
+import count  # noqa: E402
+import perf_format  # noqa: E402
+import perf_results  # noqa: E402
+import perf_table  # noqa: E402
+import perf_tables  # noqa: E402
+import perf_targets  # noqa: E402
+
+NO_COUNTS = {"context": {}, "rows": []}
 
 
 def entry(name, milliseconds, **more):
-    return {"name": name, "run_type": "iteration", "real_time": milliseconds, "time_unit": "ms",
-            "bytes": 1e8, "halfedges": 1e7, "vertices": 2e6, "faces": 3e6, "mesh_bytes": 7.8e7,
-            **more}
+    times = milliseconds if isinstance(milliseconds, list) else [milliseconds]
+    return {"name": name, "times_ns": [1e6 * time for time in times], "processor_ns": 1e6 * times[0],
+            "halfedges": 12_000_000, "vertices": 2_000_000, "faces": 4_000_000,
+            "mesh_bytes": 104_000_000, "read": 60_000_000, "written": 40_000_000, "mix": "copy",
+            "gb_per_s": {"copy": 10.0, "copy-streaming": 20.0}, **more}
 
 
-def document(*benchmarks):
-    context = {"cpu": "a processor", "num_cpus": 2, "caches": [
-        {"type": "Data", "level": 1, "size": 32768, "num_sharing": 1}],
-        "library_build_type": "debug", "benchmark_library": "Google Benchmark 1.7.1",
-        "executable": "x", "host_name": "y", "load_avg": [1]}
-    return {"context": context, "benchmarks": list(benchmarks)}
+def bandwidth(mix, threads, **rates):
+    return {"name": f"bandwidth/{mix}/3MiB/{threads}", "mix": mix, "gb_per_s": rates}
 
 
-def read(*benchmarks):
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "results.json"
-        perf_table.write_document(document(*benchmarks), path)
-        return perf_table.read_results(path)
+def document(*rows):
+    context = {"cpu": "a processor", "caches": [{"type": "Data", "level": 1, "bytes": 32768,
+                                                 "sharing": 1}]}
+    return {"context": context, "rows": list(rows)}
+
+
+def results(*rows):
+    return perf_results.Results(document(*rows))
 
 
 def line_of(table, start):
-    """The cells of the one line of a table whose first cells are `start`."""
+    """The cells, by their heads, of the one line of a table whose first cells are `start`."""
     prefix = "| " + " | ".join(start) + " |"
     lines = [line for line in table.splitlines() if line.startswith(prefix)]
     assert len(lines) == 1, (start, table)
-    return [cell.strip() for cell in lines[0].strip("|").split("|")]
+    cells, heads = ([cell.strip() for cell in line.strip("|").split("|")]
+                    for line in (lines[0], table.splitlines()[0]))
+    return dict(zip(heads, cells))
 
 
-class ReadResults(unittest.TestCase):
-    def test_takes_the_median_over_processes(self):
-        _, rows = read(entry("build/grid/4M/1", 30), entry("build/grid/4M/1", 10),
-                       entry("build/grid/4M/1", 20))
-        self.assertEqual(rows["build/grid/4M/1"].ns, 20e6)
-        self.assertEqual(rows["build/grid/4M/1"].spread, 1.0)
-
-    def test_leaves_aggregates_out(self):
-        _, rows = read(entry("build/grid/4M/1", 10),
-                       {**entry("build/grid/4M/1", 99), "run_type": "aggregate"})
-        self.assertEqual(rows["build/grid/4M/1"].times_ns, [10e6])
-
-    def test_converts_units_of_time(self):
-        _, rows = read({**entry("build/grid/10k/1", 5), "time_unit": "us"})
-        self.assertEqual(rows["build/grid/10k/1"].ns, 5e3)
+def verdict_of(targets, title, *rows, counts=None):
+    found = [(value, verdict) for target, value, verdict
+             in perf_targets.evaluate(targets, results(*rows), counts or NO_COUNTS)
+             if target.title.startswith(title)]
+    assert len(found) == 1, title
+    return found[0]
 
 
-class Merge(unittest.TestCase):
-    def test_keeps_every_process_and_nothing_that_names_the_host(self):
-        merged = perf_table.merge([document(entry("a/b/c/1", 1)), document(entry("a/b/c/1", 2))])
-        self.assertEqual([e["real_time"] for e in merged["benchmarks"]], [1, 2])
-        self.assertEqual(merged["context"]["processes"], "2")
-        self.assertNotIn("host_name", merged["context"])
-        self.assertNotIn("executable", merged["context"])
+class ResultsOfARun(unittest.TestCase):
+    def test_give_the_median_and_the_middle_half_of_the_times(self):
+        row = results(entry("build/grid/4M/1", [30, 10, 20, 1000, 15])).get("build/grid/4M/1")
+        self.assertEqual(row.ns, 20e6)
+        self.assertEqual(row.spread, 0.75)
+
+    def test_limit_is_the_best_kernel_of_the_mix_with_no_more_threads(self):
+        both = results(entry("build/grid/4M/1", 10),
+                       entry("build/grid/4M/2", 5, gb_per_s={"copy": 12.0, "copy-streaming": 16.0}))
+        # Two threads may not be held to less than one of them moved alone.
+        self.assertEqual(both.limit_gb_per_s(both.get("build/grid/4M/2")), 20.0)
+        self.assertEqual(both.share(both.get("build/grid/4M/1")), 0.5)
+
+    def test_portable_rows_become_a_variant(self):
+        merged = perf_results.merge(document(entry("build/grid/4M/1", 1)),
+                                    document(bandwidth("copy", 1, copy=1.0), entry("build/grid/4M/1", 2)))
+        self.assertEqual([row["name"] for row in merged["rows"]],
+                         ["build/grid/4M/1", "build/grid/4M/1/portable"])
+
+    def test_are_stored_as_json(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a" / "results.json"
+            perf_results.write_document(document(entry("a/b/4k/1", 1)), path)
+            self.assertEqual(json.loads(path.read_text())["rows"][0]["name"], "a/b/4k/1")
+            self.assertEqual(perf_results.read_results(path).get("a/b/4k/1").ns, 1e6)
 
 
 class Tables(unittest.TestCase):
-    def test_give_rates_and_the_share_of_the_bandwidth(self):
-        context, rows = read(entry("bandwidth/copy/3MiB/1", 10), entry("build/grid/4M/1", 20),
-                             entry("bandwidth/copy-streaming/3MiB/1", 5),
-                             entry("bandwidth/copy/3MiB/2", 1))
-        table = perf_table.all_tables()["build"](context, rows)
+    def test_give_rates_an_element_and_the_share_of_the_limit(self):
+        table = perf_tables.all_tables()["build"](results(entry("build/grid/4M/1", 20)), NO_COUNTS)
         cells = line_of(table, ["build/grid/4M", "1"])
-        # 20 ms for 1e7 half-edges and 1e8 bytes; the faster of the two copies moves 20 GB/s.
-        self.assertEqual(cells[2:], ["20.0", "0 %", "500", "2.00", "10.0", "5.00", "25 %"])
+        # 20 ms for 12e6 half-edges and 1e8 bytes; the faster of the two copies moves 20 GB/s.
+        self.assertEqual((cells["ms"], cells["ns/half-edge"], cells["B/half-edge"], cells["GB/s"],
+                          cells["of limit"]), ("20.0", "1.67", "8.33", "5.00", "25 %"))
 
     def test_give_ratios_to_the_same_dataset_and_show_where_we_lose(self):
-        context, rows = read(entry("one_ring/grid/4M/2", 20), entry("one_ring/grid/4M/1/cgal", 60),
-                             entry("one_ring/grid/4M/1/openmesh", 10),
-                             entry("one_ring/shuffled/4M/1/openmesh", 999))
-        table = perf_table.all_tables()["queries"](context, rows)
-        header = [cell.strip() for cell in table.splitlines()[0].strip("|").split("|")]
-        cells = dict(zip(header, line_of(table, ["one_ring/grid/4M", "2"])))
+        table = perf_tables.all_tables()["queries"](
+            results(entry("one_ring/grid/4M/2", 20), entry("one_ring/grid/4M/1/cgal", 60),
+                    entry("one_ring/grid/4M/1/openmesh", 10),
+                    entry("one_ring/shuffled/4M/1/openmesh", 999)), NO_COUNTS)
+        cells = line_of(table, ["one_ring/grid/4M", "2"])
         self.assertEqual((cells["x openmesh"], cells["x cgal"]), ("0.50", "3.00"))
         # The row of a peer has no ratio.
-        peer = dict(zip(header, line_of(table, ["one_ring/grid/4M/openmesh", "1"])))
+        peer = line_of(table, ["one_ring/grid/4M/openmesh", "1"])
         self.assertEqual((peer["ms"], peer["x openmesh"]), ("10.0", ""))
 
     def test_measure_the_face_list_against_the_peers_own_vertex_normals(self):
-        context, rows = read(entry("vertex_normals_facelist/grid/4M/1", 10),
-                             entry("vertex_normals_halfedge/grid/4M/1/openmesh", 70))
-        table = perf_table.all_tables()["normals"](context, rows)
-        self.assertEqual(line_of(table, ["vertex_normals_facelist/grid/4M", "1"])[-1], "7.00")
+        table = perf_tables.all_tables()["vertex-normals"](
+            results(entry("vertex_normals_facelist/grid/4M/1", 10),
+                    entry("vertex_normals_halfedge/grid/4M/1/openmesh", 70)), NO_COUNTS)
+        cells = line_of(table, ["vertex_normals_facelist/grid/4M", "1"])
+        self.assertEqual((cells["x openmesh"], cells["ns/vertex"]), ("7.00", "5.00"))
 
     def test_show_what_was_not_measured_and_why(self):
-        context, rows = read({"name": "build/grid/4M/1/openmesh", "run_type": "iteration",
-                              "error_occurred": True, "error_message": "refuses a face"})
-        table = perf_table.all_tables()["build"](context, rows)
+        table = perf_tables.all_tables()["build"](
+            results({"name": "build/grid/4M/1/openmesh", "error": "refuses a face"}), NO_COUNTS)
         self.assertIn("not measured: refuses a face", table)
 
-    def test_say_which_targets_are_missed(self):
-        context, rows = read(entry("build/grid/4M/2", 10), entry("build/grid/4M/1/openmesh", 90),
-                             entry("build/grid/4M/1/cgal", 79), entry("face_normals/grid/4M/2", 10),
-                             entry("face_normals/grid/4M/1/openmesh", 40))
-        table = perf_table.targets_table(context, rows)
-        # The faster of the two peers counts.
-        self.assertEqual(line_of(table, ["build, ordered grid"])[-2:], ["8 x", "7.90 x (missed)"])
-        self.assertEqual(line_of(table, ["face normals"])[-1], "4.00 x")
-        self.assertEqual(line_of(table, ["build, shuffled grid"])[-1], "not measured")
-        self.assertEqual(line_of(table, ["connectivity, bytes a triangle"])[-1], "26.00")
+    def test_put_the_fastest_peer_on_the_front_page(self):
+        table = perf_tables.headline_table(
+            results(entry("build/grid/4M/2", 10), entry("build/grid/4M/1/openmesh", 90),
+                    entry("build/grid/4M/1/cgal", 80)), NO_COUNTS)
+        self.assertEqual(list(line_of(table, ["build, ordered grid"]).values()),
+                         ["build, ordered grid", "10.0 ms", "80.0 ms (cgal)", "8.00 x"])
+
+    def test_put_both_forms_side_by_side(self):
+        table = perf_tables.all_tables()["views"](
+            results(entry("one_ring/grid/4M/1", 20), entry("one_ring/grid/4M/1/stored", 30)), NO_COUNTS)
+        self.assertEqual(line_of(table, ["one_ring/grid/4M", "1"])["stored/implicit"], "1.50")
+
+    def test_show_a_wrong_choice_of_the_builder(self):
+        table = perf_tables.all_tables()["strategy"](
+            results(entry("strategy/moved-5/1M/1", 40, is_window=1),
+                    entry("strategy/moved-5/1M/1/window", 40, scans_per_face=3.5),
+                    entry("strategy/moved-5/1M/1/partition", 20)), NO_COUNTS)
+        cells = line_of(table, ["moved-5/1M"])
+        self.assertEqual((cells["scans a face"], cells["chosen"], cells["the other takes, times"]),
+                         ("3.50", "window", "0.50"))
+
+    def test_show_all_sizes_of_an_order(self):
+        table = perf_tables.all_tables()["sizes"](
+            results(entry("build/scan/4M/1", 12), entry("build/scan/4M/2", 6),
+                    entry("build/scan/10k/1", 24)), NO_COUNTS)
+        self.assertEqual(line_of(table, ["scan/4M"])["build, ns/half-edge"], "1.00 / 0.50")
+        self.assertEqual(line_of(table, ["scan/10k"])["build, ns/half-edge"], "2.00 / -")
+
+    def test_say_how_much_of_the_time_others_took(self):
+        table = perf_tables.machine_table(
+            results(entry("build/grid/4M/1", 20, processor_ns=15e6),
+                    entry("one_ring/grid/4M/1", 20, processor_ns=5e6),
+                    entry("build/grid/4M/2", 20, processor_ns=40e6)), NO_COUNTS)
+        self.assertIn("50 % of the serial rows'", table)
+        self.assertIn("L1 data 32 KiB", table)
 
     def test_write_numbers_with_three_digits_and_no_exponent(self):
-        self.assertEqual([perf_table.number(x) for x in (0, 0.0123, 0.5, 9.999, 12.34, 1234.5)],
+        self.assertEqual([perf_format.number(x) for x in (0, 0.0123, 0.5, 9.999, 12.34, 1234.5)],
                          ["0", "0.0123", "0.50", "10.00", "12.3", "1234"])
+
+
+class Targets(unittest.TestCase):
+    def test_are_met_missed_or_not_measured(self):
+        rows = (entry("build/grid/4M/2", 10), entry("build/grid/4M/1/openmesh", 90),
+                entry("build/grid/4M/1/cgal", 79))
+        # The faster of the two peers counts.
+        self.assertEqual(verdict_of(perf_targets.FOUNDATION, "build, ordered", *rows),
+                         (7.9, "**missed**"))
+        self.assertEqual(verdict_of(perf_targets.FOUNDATION, "build, shuffled", *rows),
+                         (None, "not measured"))
+        self.assertEqual(verdict_of(perf_targets.FOUNDATION, "connectivity", *rows), (26.0, "met"))
+
+    def test_with_an_alternative_are_met_by_either(self):
+        rows = (entry("build/grid/4M/1", 100), bandwidth("triad", 1, triad=10.0))
+        # 1 GB/s where the limit is 20, but 120 M half-edges/s on half of the stated bandwidth.
+        self.assertEqual(verdict_of(perf_targets.TARGETS, "build, ordered, 1 thread, at", *rows),
+                         (240.0, "met"))
+        self.assertEqual(verdict_of(perf_targets.TARGETS, "build, ordered, 1 thread, times", *rows)[1],
+                         "met by the other")
+
+    def test_reach_the_moonshot(self):
+        rows = (entry("build/grid/4M/1", 20), entry("build/grid/4M/2", 10))
+        self.assertEqual(verdict_of(perf_targets.TARGETS, "build, ordered, 2 threads, times f", *rows),
+                         (2.0, "moonshot"))
+
+    def test_take_the_share_of_classification_from_the_counts(self):
+        counts = {"rows": [{"operation": "build", "dataset": "grid", "path": "avx2",
+                            "instructions": 1000, "classification": 40}]}
+        self.assertEqual(verdict_of(perf_targets.TARGETS, "classification", counts=counts), (4.0, "met"))
+
+    def test_name_rows_that_their_own_filter_lets_through(self):
+        import re
+        pattern = re.compile(perf_targets.row_filter())
+        for row in ("build/grid/4M/1", "build/shuffled/4M/1/cgal", "reorder_hilbert/shuffled/4M/2",
+                    "vertex_normals_facelist/grid/4M/1/angle", "one_ring/shuffled/4M/1/pass",
+                    "face_normals/scan/1k/2"):
+            self.assertTrue(pattern.search(row), row)
+        self.assertFalse(pattern.search("validate/grid/4M/1"))
+
+
+class Counts(unittest.TestCase):
+    DUMP = """# callgrind format
+desc: Trigger: Client Request: build/grid/4M/1
+
+events: Ir Dr DLmr DLmw
+fn=(1) hedgerow::kernels::check_triangle_runs(int)
+0 100 10 2 1
+calls=1 0
+0 40 4 1 0
+fn=(2) hedgerow::kernels::(anonymous namespace)::link(int)
++3 40 4 1 0
+fn=(1)
+* 7 1 0 0
+
+totals: 147 15 3 1
+"""
+
+    def test_leave_the_callees_out_of_a_function(self):
+        part = count.Part(self.DUMP)
+        self.assertEqual(part.name, "build/grid/4M/1")
+        self.assertEqual(part.totals["Ir"], 147)
+        self.assertEqual(sorted(part.instructions_of.values()), [40, 107])
+
+    def test_become_a_row(self):
+        row = count.row_of({"name": "build/grid/4M/1", "halfedges": 12, "compulsory_bytes": 96},
+                           count.Part(self.DUMP), "avx2")
+        self.assertEqual((row["last_level_misses"], row["classification"]), (4, 107))
+        self.assertEqual(row["functions"], {"check_triangle_runs": 107, "link": 40})
 
 
 class Rewrite(unittest.TestCase):
@@ -124,53 +233,34 @@ class Rewrite(unittest.TestCase):
                        f"<!-- table:{name} end -->\n" for name in names) + "last words\n"
 
     def test_replaces_what_is_between_the_markers_and_nothing_else(self):
-        results = read(entry("build/grid/4M/1", 20))
-        names = list(perf_table.all_tables())
-        once = perf_table.rewrite(self.text(names), *results)
+        found = results(entry("build/grid/4M/1", 20))
+        names = list(perf_tables.all_tables())
+        once = perf_tables.rewrite(self.text(names), found, NO_COUNTS)
         self.assertNotIn("old\n", once)
         self.assertIn("| build/grid/4M | 1 | 20.0 |", once)
         for name in names:
             self.assertIn(f"prose of {name}\n<!-- table:{name} begin -->\n", once)
         self.assertTrue(once.endswith("last words\n"))
-        self.assertEqual(perf_table.rewrite(once, *results), once)
+        self.assertEqual(perf_tables.rewrite(once, found, NO_COUNTS), once)
 
     def test_refuses_a_text_without_the_markers(self):
         with self.assertRaises(SystemExit):
-            perf_table.rewrite(self.text(["machine"]), *read(entry("build/grid/4M/1", 20)))
+            perf_tables.rewrite(self.text(["machine"]), results(entry("build/grid/4M/1", 20)), NO_COUNTS)
 
     def test_check_fails_on_a_number_typed_by_hand(self):
         with tempfile.TemporaryDirectory() as folder:
             perf = pathlib.Path(folder) / "PERF.md"
-            results = pathlib.Path(folder) / "results.json"
-            perf_table.write_document(document(entry("build/grid/4M/1", 20)), results)
-            perf.write_text(self.text(list(perf_table.all_tables())), encoding="utf-8")
-            arguments = ["--perf", str(perf), "--results", str(results)]
+            stored = pathlib.Path(folder) / "results.json"
+            perf_results.write_document(document(entry("build/grid/4M/1", 20)), stored)
+            perf.write_text(self.text(list(perf_tables.all_tables())), encoding="utf-8")
+            readme = pathlib.Path(folder) / "README.md"
+            readme.write_text(self.text(perf_tables.readme_tables()), encoding="utf-8")
+            arguments = ["--perf", str(perf), "--results", str(stored), "--readme", str(readme)]
             self.assertEqual(perf_table.main(arguments), 0)
             self.assertEqual(perf_table.main([*arguments, "--check"]), 0)
             perf.write_text(perf.read_text(encoding="utf-8").replace("20.0", "19.0"),
                             encoding="utf-8")
             self.assertEqual(perf_table.main([*arguments, "--check"]), 1)
-
-
-class Context(unittest.TestCase):
-    def test_says_that_the_library_is_a_debug_build(self):
-        table = perf_table.machine_table(*read(entry("build/grid/4M/1", 20)))
-        self.assertIn("debug build", table)
-        self.assertIn("a processor", table)
-        self.assertIn("L1 Data 32 KiB x2", table)
-
-    def test_says_how_much_of_the_time_others_took(self):
-        table = perf_table.machine_table(*read(
-            entry("build/grid/4M/1", 20, processor_ns=15e6), entry("one_ring/grid/4M/1", 20,
-                                                                   processor_ns=5e6),
-            entry("build/grid/4M/2", 20, processor_ns=40e6)))
-        self.assertIn("50 % of the serial rows'", table)
-
-    def test_is_stored_as_json(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "a" / "results.json"
-            perf_table.write_document(document(entry("a/b/c/1", 1)), path)
-            self.assertEqual(json.loads(path.read_text())["benchmarks"][0]["name"], "a/b/c/1")
 
 
 if __name__ == "__main__":
