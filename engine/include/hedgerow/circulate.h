@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 #include <ranges>
+#include <type_traits>
 
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -143,8 +144,11 @@ class NeighbourState {
   NeighbourState() noexcept = default;
   NeighbourState(const Mesh& mesh, VertexId v) noexcept : mesh_(&mesh), at_(mesh, v) { enter(); }
 
+  // The opposite half-edge is where the walk goes next, so its origin costs no arithmetic.
   [[nodiscard]] VertexId value() const noexcept {
-    return is_behind_ ? mesh_->origin[mesh_->prev(at_.value())] : mesh_->target(at_.value());
+    if (is_behind_) return mesh_->origin[mesh_->prev(at_.value())];
+    const HalfedgeId opposite = mesh_->opposite[at_.value()];
+    return opposite.valid() ? mesh_->origin[opposite] : mesh_->target(at_.value());
   }
   [[nodiscard]] bool is_done() const noexcept { return at_.is_done(); }
   void advance() noexcept {
@@ -326,12 +330,27 @@ template <Topology Mesh>
 ///            array of its own to add to, and add these up afterwards.
 template <Topology Mesh, class Visit>
 void for_each_neighbour(const Mesh& mesh, IndexRange halfedges, Visit&& visit) {
-  for (Index i = halfedges.begin; i < halfedges.end; ++i) {
-    const HalfedgeId h(i);
-    const VertexId from = mesh.origin[h];
-    const VertexId to = mesh.target(h);
+  const auto visit_edge = [&](HalfedgeId h, VertexId from, VertexId to) {
     visit(from, to);
     if (!mesh.opposite[h].valid()) visit(to, from);
+  };
+  Index i = halfedges.begin;
+  if constexpr (std::is_same_v<Mesh, TriangleView>) {
+    // Face by face there is no remainder to find.
+    for (; i < halfedges.end && i % 3 != 0; ++i) {
+      visit_edge(HalfedgeId(i), mesh.origin[HalfedgeId(i)], mesh.target(HalfedgeId(i)));
+    }
+    for (; i + 3 <= halfedges.end; i += 3) {
+      const VertexId a = mesh.origin[HalfedgeId(i)];
+      const VertexId b = mesh.origin[HalfedgeId(i + 1)];
+      const VertexId c = mesh.origin[HalfedgeId(i + 2)];
+      visit_edge(HalfedgeId(i), a, b);
+      visit_edge(HalfedgeId(i + 1), b, c);
+      visit_edge(HalfedgeId(i + 2), c, a);
+    }
+  }
+  for (; i < halfedges.end; ++i) {
+    visit_edge(HalfedgeId(i), mesh.origin[HalfedgeId(i)], mesh.target(HalfedgeId(i)));
   }
 }
 

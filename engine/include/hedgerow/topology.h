@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <concepts>
 #include <span>
+#include <type_traits>
 
 #include "hedgerow/column.h"
 #include "hedgerow/index.h"
@@ -72,15 +73,21 @@ struct TriangleView {
   [[nodiscard]] Index face_count() const noexcept { return origin.size() / 3; }
 
   [[nodiscard]] HalfedgeId next(HalfedgeId h) const noexcept {
-    return HalfedgeId(h.value % 3 == 2 ? h.value - 2 : h.value + 1);
+    return HalfedgeId(is_corner(h, 2) ? h.value - 2 : h.value + 1);
   }
   [[nodiscard]] HalfedgeId prev(HalfedgeId h) const noexcept {
-    return HalfedgeId(h.value % 3 == 0 ? h.value + 2 : h.value - 1);
+    return HalfedgeId(is_corner(h, 0) ? h.value + 2 : h.value - 1);
   }
   [[nodiscard]] VertexId target(HalfedgeId h) const noexcept { return origin[next(h)]; }
   [[nodiscard]] FaceId face(HalfedgeId h) const noexcept { return FaceId(h.value / 3); }
   [[nodiscard]] HalfedgeId first(FaceId f) const noexcept { return HalfedgeId(3 * f.value); }
   [[nodiscard]] Index degree(FaceId) const noexcept { return 3; }
+
+ private:
+  // Without a sign, a remainder is compared by one multiplication.
+  [[nodiscard]] static bool is_corner(HalfedgeId h, unsigned k) noexcept {
+    return static_cast<std::make_unsigned_t<Index>>(h.value) % 3 == k;
+  }
 };
 
 /// Any mesh, in either form, with every column stored. 54 bytes a triangle on a closed mesh.

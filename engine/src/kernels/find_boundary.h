@@ -11,8 +11,12 @@ namespace hedgerow::kernels {
 /// memory.
 [[nodiscard]] inline Index find_boundary(IndexRange range, const Index* opposite) noexcept {
   constexpr Index kBlock = 64;
+  constexpr Index kAhead = 2048;  // two pages: hardware prefetchers stop at the end of each
+  constexpr Index kLine = 64 / static_cast<Index>(sizeof(Index));
   Index i = range.begin;
   for (; range.end - i >= kBlock; i += kBlock) {
+    const Index ahead = range.end - i >= kAhead + kBlock ? i + kAhead : i;
+    for (Index k = 0; k < kBlock; k += kLine) __builtin_prefetch(opposite + ahead + k);
     Index all = 0;
     for (Index k = 0; k < kBlock; ++k) all |= opposite[i + k];
     if (all < 0) break;

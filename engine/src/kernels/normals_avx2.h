@@ -9,7 +9,11 @@
 #if defined(__AVX2__)
 
 /// Moving float3 values in and out of eight lanes; for sources compiled for AVX2.
+///
+/// All of it is local to the source: what a compiler does not inline must not become the copy that
+/// the linker picks for sources without AVX2.
 namespace hedgerow::kernels {
+namespace {
 
 [[nodiscard]] inline __m256i load_indices(const Index* p) noexcept {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
@@ -215,6 +219,7 @@ class Writer8 {
   Way way_;
 };
 
+}  // namespace
 }  // namespace hedgerow::kernels
 
 #endif
