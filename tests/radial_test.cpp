@@ -1,6 +1,7 @@
 #include "hedgerow/radial.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -237,14 +238,16 @@ TEST(RadialAngle, TellsDirectionsApartThatRoundToTheSame) {
   EXPECT_EQ(cycle_of(*cycles, 0), (std::vector<Index>{0, 6, 9, 3}));
 }
 
-TEST(RadialAngle, KeepsTheOrderWhenEverythingIsScaledByAPowerOfTwo) {
+// By powers of two, and by a power of three: as exact, but products no longer fit a double.
+TEST(RadialAngle, KeepsTheOrderWhenEverythingIsScaled) {
+  constexpr std::array kScales = {0x1p-149F, 0x1p124F, 59'049.0F};
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
     const PlainFaces faces = pages(9);
     Points points;
     for (int i = 0; i < 33; ++i) points.push_back(static_cast<float>(random.below(9) - 4));
     Points scaled = points;
-    for (float& x : scaled) x *= seed % 2 == 0 ? 0x1p-149F : 0x1p124F;
+    for (float& x : scaled) x *= kScales[seed % 3];
     const Connectivity mesh = to_connectivity(reference_of(faces));
     const auto cycles = build_radial(mesh, view_of(points), Execution::serial());
     const auto same = build_radial(mesh, view_of(scaled), Execution::serial());

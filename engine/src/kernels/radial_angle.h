@@ -32,6 +32,7 @@ struct RadialSide {
   Index halfedge = kInvalidIndex;
   Index run = 0;          ///< the same for the half-edges of one edge
   int sector = 0;         ///< for `order_sides`
+  int unit = 0;           ///< all coordinates of the face are multiples of 2^unit
   double term_count = 0;  ///< of the sum
   std::array<double, 3> area{};
   std::array<double, 3> size{};  ///< the same sum of magnitudes: what errors are in proportion to
@@ -72,6 +73,9 @@ struct DoublePoints {
     return {p[0], p[1], p[2]};
   }
 };
+
+/// That of the largest float, and of what counts as larger: of zeros alone, any would do.
+inline constexpr int kLargestUnit = 128;
 
 /// magnitude * 2^exponent, with an odd magnitude.
 struct FloatParts {
@@ -134,13 +138,27 @@ template <Topology Mesh, class Points>
   return runs_up(mesh, h) ? difference(from, to) : difference(to, from);
 }
 
-/// `halfedge`, `area` and the bounds. O(degree).
+/// The largest power of two that all coordinates of the face of `h` are multiples of.
+template <Topology Mesh>
+[[nodiscard]] int lowest_exponent(const Mesh& mesh, Positions positions, HalfedgeId h) noexcept {
+  int lowest = std::numeric_limits<int>::max();
+  HalfedgeId side = h;
+  do {
+    const float* p = positions[mesh.origin[side].value];
+    for (int k = 0; k < 3; ++k) lowest = std::min(lowest, parts_of(p[k]).exponent);
+    side = mesh.next(side);
+  } while (side != h);
+  return lowest;
+}
+
+/// All of a side but its sector. O(degree).
 template <Topology Mesh>
 [[nodiscard]] RadialSide radial_side(const Mesh& mesh, Positions positions, HalfedgeId h,
                                      Index run) noexcept {
   RadialSide side;
   side.halfedge = h.value;
   side.run = run;
+  side.unit = std::min(lowest_exponent(mesh, positions, h), kLargestUnit);
   const double way = runs_up(mesh, h) ? 1 : -1;
   for_each_wedge(mesh, DoublePoints{positions}, h, [&](const auto& p, const auto& q) {
     const Triple<double> area = cross(p, q);
@@ -170,8 +188,8 @@ class RadialSigns {
     const double value = dot(axis_, cross(a.area, b.area));
     const double size = dot(axis_size_, cross_size(a.size, b.size));
     const int sign = sign_of(value, size, a.term_count + b.term_count);
-    if (sign != 0) return sign;
-    const WholePoints points = whole_points(a.halfedge, b.halfedge);
+    if (sign != 0 || is_whole(size, 5 * std::min(a.unit, b.unit))) return sign;
+    const WholePoints points = whole_points(a, b);
     const auto axis = edge_axis(mesh_, points, HalfedgeId(a.halfedge));
     return dot(axis, cross(whole_area(points, a), whole_area(points, b))).sign();
   }
@@ -181,8 +199,8 @@ class RadialSigns {
     const double value = dot(cross(axis_, a.area), cross(axis_, b.area));
     const double size = dot(cross_size(axis_size_, a.size), cross_size(axis_size_, b.size));
     const int sign = sign_of(value, size, a.term_count + b.term_count);
-    if (sign != 0) return sign;
-    const WholePoints points = whole_points(a.halfedge, b.halfedge);
+    if (sign != 0 || is_whole(size, 6 * std::min(a.unit, b.unit))) return sign;
+    const WholePoints points = whole_points(a, b);
     const auto axis = edge_axis(mesh_, points, HalfedgeId(a.halfedge));
     return dot(cross(axis, whole_area(points, a)), cross(axis, whole_area(points, b))).sign();
   }
@@ -202,19 +220,15 @@ class RadialSigns {
     return value > bound ? 1 : value < -bound ? -1 : 0;
   }
 
-  [[nodiscard]] int lowest_exponent(HalfedgeId h) const noexcept {
-    int lowest = std::numeric_limits<int>::max();
-    HalfedgeId side = h;
-    do {
-      const float* p = positions_[mesh_.origin[side].value];
-      for (int k = 0; k < 3; ++k) lowest = std::min(lowest, parts_of(p[k]).exponent);
-      side = mesh_.next(side);
-    } while (side != h);
-    return lowest;
+  // True if no step on the way to a sum of this size has rounded, because all of them are whole
+  // numbers of 2^unit below 2^53: small integers, and grids. Then a 0 is a 0, too.
+  [[nodiscard]] static bool is_whole(double size, int unit) noexcept {
+    return size < std::ldexp(0x1p51, unit);
   }
+
   // In units as large as the coordinates allow: small integers stay small.
-  [[nodiscard]] WholePoints whole_points(Index a, Index b) const noexcept {
-    return {positions_, std::min(lowest_exponent(HalfedgeId(a)), lowest_exponent(HalfedgeId(b)))};
+  [[nodiscard]] WholePoints whole_points(const RadialSide& a, const RadialSide& b) const noexcept {
+    return {positions_, std::min(a.unit, b.unit)};
   }
   [[nodiscard]] Triple<WideInteger> whole_area(const WholePoints& points,
                                                const RadialSide& side) const noexcept {
