@@ -234,6 +234,25 @@ class Repair(ProgramTest):
         self.done("repair", mesh, self.path("b.obj"), "--strict", "--policy",
                   "isolated-vertex=skip")
 
+    def test_orient_turns_the_face_that_disagrees(self):
+        mesh = self.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                  "f 1 2 3\nf 1 2 4\nf 2 4 3\nf 3 4 1\n")
+        report = self.json("repair", mesh, self.path("b.obj"), "--orient")
+        self.assertEqual(report["orientation"]["faces_turned"], [1])
+        self.assertEqual(report["orientation"]["proofs"], [])
+        after = self.json("inspect", self.path("b.obj"))
+        self.assertTrue(after["oriented"] and after["closed"])
+        self.assertEqual(report["vertices_split"], 0)
+
+    def test_orient_proves_that_a_moebius_band_has_no_orientation(self):
+        self.done("generate", "mobius", self.path("a.obj"), "--size", "100")
+        report = self.json("repair", self.path("a.obj"), self.path("b.obj"), "--orient")
+        self.assertEqual(report["orientation"]["nonorientable_patches"], 1)
+        self.assertGreater(len(report["orientation"]["proofs"][0]), 2)
+        self.assertEqual(report["orientation"]["faces_turned"], [])
+        out = self.done("repair", self.path("a.obj"), self.path("b.obj"), "--orient")
+        self.assertIn("no orientation: faces ", out)
+
     def test_the_text_says_what_was_changed(self):
         out = self.done("repair", self.file("a.obj", self.BAD), self.path("b.obj"))
         for word in ("nonmanifold-edge", "split", "repeated-vertex", "dropped"):

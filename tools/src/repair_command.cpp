@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "commands.h"
 #include "failure.h"
 #include "mesh_file.h"
+#include "orient_faces.h"
 #include "table.h"
 
 namespace hedgerow::tool {
@@ -17,6 +19,7 @@ struct Arguments {
   std::string input;
   std::string output;
   std::string maps;
+  bool orient = false;
 };
 
 /// A face list has no room for a cut edge: it would be joined again when the file is read. So where
@@ -50,6 +53,7 @@ struct Outcome {
   /// New vertices that repeat the position of an earlier one, and old ones that none came from.
   std::int64_t vertices_split = 0;
   std::int64_t vertices_dropped = 0;
+  std::optional<OrientedFaces> oriented;
 };
 
 void count_vertices(const BuildOutput& output, Outcome& outcome) {
@@ -84,6 +88,7 @@ std::string outcome_text(const Run& run, const Arguments& arguments, const Outco
               fmt::format("{} dropped", grouped(outcome.faces_before - outcome.faces_after))});
   std::string out = kinds.empty() ? "no defects\n" : kinds.text(run.colour());
   out += '\n' + counts.text(run.colour());
+  if (outcome.oriented) out += '\n' + text_of(*outcome.oriented);
   if (is_any_cut) {
     out += "\na cut leaves the faces in the file as they are; split removes the defect\n";
   }
@@ -116,6 +121,7 @@ Json outcome_json(const Arguments& arguments, const Outcome& outcome) {
   json["vertices_split"] = outcome.vertices_split;
   json["vertices_dropped"] = outcome.vertices_dropped;
   json["faces_dropped"] = outcome.faces_before - outcome.faces_after;
+  json["orientation"] = outcome.oriented ? json_of(*outcome.oriented) : Json(nullptr);
   return json;
 }
 
@@ -133,8 +139,11 @@ ExitStatus repair(Run& run, const Arguments& arguments) {
   outcome.policies = repair_policies(run.options());
   run.progress().begin(4);
   run.progress().step("reading");
-  const MeshFile file = read_mesh(run, arguments.input);
+  MeshFile file = read_mesh(run, arguments.input);
   run.progress().step("repairing");
+  if (arguments.orient) {
+    outcome.oriented = orient_faces(run, arguments.input, file.soup, outcome.policies);
+  }
   const BuiltMesh built = build_mesh(run, arguments.input, file.soup, outcome.policies);
   const Soup soup = kept_soup(built.output, file.soup.xyz);
   run.progress().step("checking the result");
@@ -173,6 +182,10 @@ void add_repair(Program& program) {
       [arguments](Run& run) { return repair(run, *arguments); });
   command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
   command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
+  command.add_flag("--orient", arguments->orient,
+                   "First turn faces over so that those of each patch\n"
+                   "agree. A patch with no orientation, as a Moebius\n"
+                   "band, is reported with a cycle of faces as proof");
   command
       .add_option("--maps", arguments->maps,
                   "JSON file to write: vertices_new_to_old and\n"
