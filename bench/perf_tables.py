@@ -13,7 +13,7 @@ OPERATIONS = {
     "build": ("build",),
     "face-normals": ("face_normals",),
     "vertex-normals": ("vertex_normals_facelist", "vertex_normals_halfedge"),
-    "queries": ("one_ring", "circulator", "boundary_loops", "components"),
+    "queries": ("one_ring", "circulator", "boundary_loops", "components", "build_radial"),
     "whole-mesh": ("close_boundary", "open_boundary", "validate", "reorder_hilbert",
                    "reorder_morton", "reorder_breadth_first"),
     "memory": ("fill_column",),

@@ -114,7 +114,7 @@ TARGETS = (
            times_faster(("build", SHUFFLED, PAIR)), 18, 40),
     Target("build, shuffled, 2 threads, time by that of the ordered one",
            ratio(("build", SHUFFLED, PAIR), ("build", GRID, PAIR)), None, 4, is_least=False),
-    Target("classification of defects, share of the build's instructions", classification_share,
+    Target("classification of defects: the survey of all faces, which also plans the window, by instructions", classification_share,
            5, 0, "%", is_least=False),
     Target("face normals, 2 threads, of bandwidth", share("face_normals", GRID, PAIR), 60, 90, "%"),
     Target("vertex normals, face list, 2 threads, of bandwidth",

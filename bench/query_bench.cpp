@@ -1,8 +1,9 @@
-// hedgerow/query.h: questions about the whole mesh.
+// hedgerow/query.h and hedgerow/radial.h: questions about the whole mesh.
 #include <memory>
 #include <utility>
 
 #include "hedgerow/query.h"
+#include "hedgerow/radial.h"
 #include "peers/measured_mesh.h"
 #include "runner.h"
 #include "stored_form.h"
@@ -49,6 +50,33 @@ Work prepare_peer_components(const Dataset& data, const Peer& peer) {
   return work;
 }
 
+Work prepare_radial(const Dataset& data, const Execution& execution) {
+  auto edges = std::make_shared<RadialCycles>();
+  Work work;
+  work.run = [&data, execution, edges] { *edges = build_radial(data.mesh, execution); };
+  work.cleanup = [edges] { *edges = {}; };
+  work.run();
+  const std::vector<Index>& opposite = data.reference.opposite;
+  for (std::size_t h = 0; h < opposite.size() && work.error.empty(); ++h) {
+    if (opposite[h] == kInvalidIndex ||
+        edges->next(HalfedgeId(static_cast<Index>(h))).value == opposite[h])
+      continue;
+    // A pair between the vertices of an edge that was cut is part of a longer cycle.
+    const HalfedgeId next = edges->next(HalfedgeId(static_cast<Index>(h)));
+    if (edges->next(next).value == static_cast<Index>(h)) {
+      work.error = "a pair that the reference does not have; not measured";
+    }
+  }
+  work.cleanup();
+  return work;
+}
+
+/// Reads opposite, and writes the next half-edge round the edge.
+Traffic radial_traffic(const Dataset& data) {
+  const double bytes = kIndexBytes * counts_of(data).halfedges;
+  return {bytes, bytes};
+}
+
 /// Reads opposite.
 Traffic loops_traffic(const Dataset& data) { return {kIndexBytes * counts_of(data).halfedges, 0}; }
 /// Reads origin; writes a label for each vertex.
@@ -66,6 +94,11 @@ void add_query(const Plan& plan) {
                  return prepare_loops(data, stored_form(data));
                },
                loops_traffic, Mix::read});
+  }
+  for (const DatasetKey& key : plan.large) {
+    for (const int threads : plan.threads) {
+      add(plan, {"build_radial", key, threads, "", prepare_radial, radial_traffic, Mix::copy});
+    }
   }
   for (const DatasetKey& key : plan.all) {
     add(plan, {"boundary_loops", key, 1, "",
