@@ -120,12 +120,25 @@ class Convert(ProgramTest):
     def test_a_mesh_survives_every_format_that_keeps_it(self):
         mesh = self.file("a.obj", cli.CUBE)
         wanted = self.json("inspect", mesh)["digest"]
-        for name in ("b.ply", "c.off", "d.OBJ"):
+        for name in ("b.ply", "c.off", "e.wet", "d.OBJ"):
             out = self.path(name)
             self.done("convert", mesh, out)
             report = self.json("inspect", out)
             self.assertEqual((report["quads"], report["digest"]), (6, wanted))
             mesh = out
+
+    def test_winged_edge_tables_keep_their_numbers(self):
+        text = "wet 1\nvertices 3\n0 0 0 3\n1 0 0 3\n0 1 0 2\nfaces 1\n2\nedges 3\n"
+        rows = "3 1 2 3 0 0 1 0\n2 3 3 1 0 0 1 0\n2 1 0 0 1 2 0 1\n"
+        out = self.path("b.wet")
+        self.done("convert", self.file("a.wet", text + rows), out)
+        with open(out, encoding="ascii") as file:
+            lines = [line for line in file if not line.startswith("#")]
+        self.assertEqual("".join(lines), text + rows)
+        bad = self.file("c.wet", text + rows.replace("2 3 3 1 0 0 1 0", "2 3 3 2 0 0 1 0"))
+        line = self.fails(3, "convert", bad, out, pattern=cli.TEXT_PLACE)
+        self.assertTrue(line.endswith("edges row 2, column next_cw: found 2, "
+                                      "consistent would be 1"), line)
 
     def test_stl_takes_polygons_apart_and_says_so(self):
         mesh = self.file("a.obj", cli.CUBE)

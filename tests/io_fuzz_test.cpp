@@ -117,6 +117,9 @@ std::vector<Seed> seeds() {
       {Format::stl, binary_stl()},
       {Format::gltf, gltf_json("," + data)},
       {Format::glb, glb()},
+      {Format::wet,
+       "wet 1\nvertices 4\n0 0 0 1\n1 0 0 1\n0 1 0 2\n5 5 5 0\nfaces 1\n3\nedges 3\n"
+       "1 2 3 2 0 0 1 0 # c\n2 3 1 3 0 0 1 0\n3 1 2 1 0 0 1 0\n"},
   };
 }
 

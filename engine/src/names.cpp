@@ -11,8 +11,9 @@ constexpr const char* kErrorNames[] = {
     "nonmanifold-edge",   "inconsistent-edge",  "nonmanifold-vertex", "isolated-vertex",
     "too-many-elements",  "bad-face-offsets",   "null-pointer",       "bad-stride",
     "count-mismatch",     "unsupported-policy", "scratch-too-small",  "already-closed",
-    "already-open",       "not-canonical"};
-static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::not_canonical) + 1);
+    "already-open",       "not-canonical",      "inconsistent-table"};
+static_assert(std::size(kErrorNames) ==
+              static_cast<std::size_t>(ErrorCode::inconsistent_table) + 1);
 
 constexpr const char* kDefectNames[] = {
     "out-of-range",     "too-few-corners",   "repeated-vertex",    "duplicate-face",

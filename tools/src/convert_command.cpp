@@ -5,6 +5,7 @@
 
 #include "clock.h"
 #include "commands.h"
+#include "hedgerow/io/format.h"
 #include "mesh_file.h"
 #include "table.h"
 
@@ -16,10 +17,17 @@ struct Arguments {
   std::string output;
 };
 
-ExitStatus convert(Run& run, const Arguments& arguments) {
-  check_output_path(arguments.output);
-  run.progress().begin(run.options().strict ? 3 : 2);
-  run.progress().step("reading");
+bool is_winged(const std::string& path) { return io::format_of(path) == io::Format::wet; }
+
+struct Converted {
+  Index vertex_count = 0;
+  Index face_count = 0;
+  std::int64_t byte_count = 0;
+  double read_ms = 0;
+  double write_ms = 0;
+};
+
+Converted convert_mesh(Run& run, const Arguments& arguments) {
   const MeshFile file = read_mesh(run, arguments.input);
   if (run.options().strict) {
     run.progress().step("checking");
@@ -28,22 +36,46 @@ ExitStatus convert(Run& run, const Arguments& arguments) {
   run.progress().step("writing");
   const Clock clock;
   const std::int64_t bytes = write_mesh(run, arguments.output, file.soup);
-  const double write_ms = clock.ms();
+  return {file.soup.vertex_count(), file.soup.face_count(), bytes, file.read_ms, clock.ms()};
+}
 
+// Through faces, edges and sides would be numbered anew.
+Converted convert_tables(Run& run, const Arguments& arguments) {
+  if (run.options().strict) {
+    const MeshFile file = read_mesh(run, arguments.input);
+    run.progress().step("checking");
+    enforce_strict(run, arguments.input, build_mesh(run, file).output);
+  }
+  const Clock reading;
+  const WingedEdgeTables tables = read_tables(run, arguments.input);
+  const double read_ms = reading.ms();
+  run.progress().step("writing");
+  const Clock writing;
+  const std::int64_t bytes = write_tables(arguments.output, tables);
+  return {tables.vertex_count(), tables.face_count(), bytes, read_ms, writing.ms()};
+}
+
+ExitStatus convert(Run& run, const Arguments& arguments) {
+  check_output_path(arguments.output);
+  const bool keeps_tables = is_winged(arguments.input) && is_winged(arguments.output);
+  run.progress().begin(run.options().strict ? 3 : 2);
+  run.progress().step("reading");
+  const Converted done =
+      keeps_tables ? convert_tables(run, arguments) : convert_mesh(run, arguments);
   if (run.is_text()) {
     run.print(fmt::format("{}: {} vertices, {} faces, {}; read in {}, written in {}\n",
-                          arguments.output, grouped(file.soup.vertex_count()),
-                          grouped(file.soup.face_count()), byte_text(bytes),
-                          time_text(file.read_ms), time_text(write_ms)));
+                          arguments.output, grouped(done.vertex_count), grouped(done.face_count),
+                          byte_text(done.byte_count), time_text(done.read_ms),
+                          time_text(done.write_ms)));
     return ExitStatus::done;
   }
   Json json;
   json["input"] = arguments.input;
   json["output"] = arguments.output;
-  json["vertices"] = file.soup.vertex_count();
-  json["faces"] = file.soup.face_count();
-  json["bytes"] = bytes;
-  json["timings_ms"] = {{"read", file.read_ms}, {"write", write_ms}};
+  json["vertices"] = done.vertex_count;
+  json["faces"] = done.face_count;
+  json["bytes"] = done.byte_count;
+  json["timings_ms"] = {{"read", done.read_ms}, {"write", done.write_ms}};
   run.print_json(json);
   return ExitStatus::done;
 }
@@ -58,7 +90,7 @@ void add_convert(Program& program) {
                           "hedgerow convert engine.stl engine.ply",
                           [arguments](Run& run) { return convert(run, *arguments); });
   command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "File to write: .obj, .ply, .off or .stl")
+  command.add_option("OUT", arguments->output, "File to write: .obj, .ply, .off, .stl or .wet")
       ->required()
       ->type_name("");
 }

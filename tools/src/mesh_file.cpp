@@ -11,6 +11,7 @@
 #include "hedgerow/io/atomic_file.h"
 #include "hedgerow/io/format.h"
 #include "hedgerow/io/read.h"
+#include "hedgerow/io/winged_edge.h"
 #include "hedgerow/io/write.h"
 #include "table.h"
 
@@ -47,7 +48,7 @@ void note_warnings(Run& run, const std::string& path, const io::ReadOutput& outp
   }
 }
 
-std::string writable_extensions() { return ".obj .ply .off .stl"; }
+std::string writable_extensions() { return ".obj .ply .off .stl .wet"; }
 
 }  // namespace
 
@@ -103,6 +104,18 @@ std::int64_t write_mesh(Run& run, const std::string& path, const Soup& soup,
     run.note(fmt::format("{}: warning: faces-dropped: {} faces have fewer than three corners\n",
                          path, grouped(output->dropped_face_count)));
   }
+  return output->byte_count;
+}
+
+WingedEdgeTables read_tables(Run& run, const std::string& path) {
+  io::IoResult<WingedEdgeTables> tables = io::read_winged_edges(path, read_options(run));
+  if (!tables) throw describe_file(tables.error(), ExitStatus::input);
+  return std::move(*tables);
+}
+
+std::int64_t write_tables(const std::string& path, const WingedEdgeTables& tables) {
+  const io::IoResult<io::WriteOutput> output = io::write_winged_edges(path, tables);
+  if (!output) throw describe_file(output.error(), ExitStatus::output);
   return output->byte_count;
 }
 

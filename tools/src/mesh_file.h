@@ -6,6 +6,7 @@
 
 #include "hedgerow/build.h"
 #include "hedgerow/soup.h"
+#include "hedgerow/winged_edge.h"
 #include "run.h"
 
 namespace hedgerow::tool {
@@ -31,6 +32,9 @@ void check_output_path(const std::string& path, const std::string& extension);
 /// Throws `Failure`.
 std::int64_t write_mesh(Run& run, const std::string& path, const Soup& soup,
                         const Buffer<float>& normals = {});
+/// From winged-edge tables to winged-edge tables: every number stays as it is. Throws `Failure`.
+[[nodiscard]] WingedEdgeTables read_tables(Run& run, const std::string& path);
+std::int64_t write_tables(const std::string& path, const WingedEdgeTables& tables);
 /// A text file, whole or not at all. Throws `Failure`.
 void write_text(const std::string& path, const std::string& text);
 

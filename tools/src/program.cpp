@@ -29,7 +29,7 @@ Program::Program() : app_("Half-edge mesh connectivity: inspect, repair, convert
   app_.get_formatter()->column_width(34);
   app_.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app_.footer(
-      "Reads .obj .ply .off .stl .gltf .glb; writes .obj .ply .off .stl.\n"
+      "Reads .obj .ply .off .stl .gltf .glb .wet; writes .obj .ply .off .stl .wet.\n"
       "Exit status: 0 done; 1 defects under --strict, or a check failed; 2 usage; 3 bad input;\n"
       "4 output cannot be written; 5 out of memory or too many elements.\n\n"
       "Example: hedgerow inspect bunny.ply\n"

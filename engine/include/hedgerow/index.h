@@ -36,6 +36,8 @@ struct Id {
 using VertexId = Id<struct VertexTag>;
 using HalfedgeId = Id<struct HalfedgeTag>;
 using FaceId = Id<struct FaceTag>;
+/// Only representations with a record per edge number edges.
+using EdgeId = Id<struct EdgeTag>;
 
 static_assert(sizeof(HalfedgeId) == sizeof(Index) && std::is_trivially_copyable_v<HalfedgeId>);
 

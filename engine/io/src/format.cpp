@@ -6,8 +6,8 @@
 namespace hedgerow::io {
 
 namespace {
-constexpr const char* kNames[] = {"obj", "ply", "off", "stl", "gltf", "glb"};
-static_assert(std::size(kNames) == static_cast<std::size_t>(Format::glb) + 1);
+constexpr const char* kNames[] = {"obj", "ply", "off", "stl", "gltf", "glb", "wet"};
+static_assert(std::size(kNames) == static_cast<std::size_t>(Format::wet) + 1);
 }  // namespace
 
 const char* name(Format format) noexcept { return kNames[static_cast<std::size_t>(format)]; }

@@ -1,11 +1,14 @@
 #include "hedgerow/io/read.h"
 
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "file_bytes.h"
+#include "hedgerow/io/winged_edge.h"
 #include "read_context.h"
 #include "text_cursor.h"
+#include "wet.h"
 
 namespace hedgerow::io {
 
@@ -31,16 +34,23 @@ const char* compression_of(std::span<const char> bytes) noexcept {
   return nullptr;
 }
 
-Parsed<Soup> parse(Format format, ReadContext& context) {
+std::optional<Failure> check_file(Format format, const ReadContext& context) {
   if (context.bytes.empty() && format != Format::obj) {
     const bool is_text = format != Format::stl && format != Format::glb;
-    return failure(IoErrorCode::empty_file, 0, is_text ? Place::text : Place::binary,
-                   "the file has no bytes");
+    return Failure{IoErrorCode::empty_file, 0, is_text ? Place::text : Place::binary,
+                   "the file has no bytes"};
   }
   if (const char* compression = compression_of(context.bytes)) {
-    return failure(IoErrorCode::compressed_file, 0, Place::binary,
+    return Failure{IoErrorCode::compressed_file, 0, Place::binary,
                    std::string("the file is compressed with ") + compression +
-                       ", which is not supported; decompress it first");
+                       ", which is not supported; decompress it first"};
+  }
+  return std::nullopt;
+}
+
+Parsed<Soup> parse(Format format, ReadContext& context) {
+  if (std::optional<Failure> failed = check_file(format, context)) {
+    return tl::unexpected<Failure>(std::move(*failed));
   }
   switch (format) {
     case Format::obj:
@@ -55,6 +65,8 @@ Parsed<Soup> parse(Format format, ReadContext& context) {
       return read_gltf(context);
     case Format::glb:
       return read_glb(context);
+    case Format::wet:
+      return read_wet(context);
   }
   return failure(IoErrorCode::unknown_format, 0, Place::none, "unknown format");
 }
@@ -108,12 +120,31 @@ IoResult<ReadOutput> read(const std::filesystem::path& path, const ReadOptions& 
     IoError error;
     error.code = IoErrorCode::unknown_extension;
     error.path = path.string();
-    error.message = "the extension is none of .obj .ply .off .stl .gltf .glb";
+    error.message = "the extension is none of .obj .ply .off .stl .gltf .glb .wet";
     return tl::unexpected<IoError>(std::move(error));
   }
   IoResult<Buffer<char>> bytes = read_file(path);
   if (!bytes) return tl::unexpected<IoError>(std::move(bytes.error()));
   return read_bytes(bytes->span(), *format, path, options);
+}
+
+IoResult<WingedEdgeTables> read_winged_edges_bytes(std::span<const char> bytes,
+                                                   const std::filesystem::path& path,
+                                                   const ReadOptions& options) {
+  ReadContext context{bytes, options, path, Progress(options.progress, bytes.size()), {}};
+  if (std::optional<Failure> failed = check_file(Format::wet, context)) {
+    return tl::unexpected<IoError>(located(std::move(*failed), context));
+  }
+  Parsed<WingedEdgeTables> tables = parse_wet(context);
+  if (!tables) return tl::unexpected<IoError>(located(std::move(tables.error()), context));
+  return std::move(*tables);
+}
+
+IoResult<WingedEdgeTables> read_winged_edges(const std::filesystem::path& path,
+                                             const ReadOptions& options) {
+  IoResult<Buffer<char>> bytes = read_file(path);
+  if (!bytes) return tl::unexpected<IoError>(std::move(bytes.error()));
+  return read_winged_edges_bytes(bytes->span(), path, options);
 }
 
 }  // namespace hedgerow::io

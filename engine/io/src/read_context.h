@@ -55,5 +55,6 @@ struct ReadContext {
 [[nodiscard]] Parsed<Soup> read_stl(ReadContext& context);
 [[nodiscard]] Parsed<Soup> read_gltf(ReadContext& context);
 [[nodiscard]] Parsed<Soup> read_glb(ReadContext& context);
+[[nodiscard]] Parsed<Soup> read_wet(ReadContext& context);
 
 }  // namespace hedgerow::io

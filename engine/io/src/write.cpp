@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "failure.h"
+#include "hedgerow/io/winged_edge.h"
 #include "output.h"
+#include "wet.h"
 
 namespace hedgerow::io {
 
@@ -73,13 +75,18 @@ IoResult<WriteOutput> write(const std::filesystem::path& path, const WriteInput&
   const std::optional<Format> format = format_of(path);
   if (!format || !can_write(*format)) {
     return refuse(path, IoErrorCode::unknown_extension,
-                  "the extension is none of .obj .ply .off .stl");
+                  "the extension is none of .obj .ply .off .stl .wet");
   }
   if (std::optional<std::string> defect = defect_of(input)) {
     return refuse(path, IoErrorCode::bad_mesh, std::move(*defect));
   }
   if (std::optional<std::string> excess = excess_of(input, *format)) {
     return refuse(path, IoErrorCode::too_many_elements, std::move(*excess));
+  }
+  if (*format == Format::wet) {
+    const Parsed<WingedEdgeTables> tables = tables_of(input);
+    if (!tables) return refuse(path, tables.error().code, tables.error().message);
+    return write_winged_edges(path, *tables, options);
   }
   IoResult<AtomicFile> file = AtomicFile::create(path, {options.durable});
   if (!file) return tl::unexpected<IoError>(std::move(file.error()));

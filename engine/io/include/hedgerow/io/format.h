@@ -6,8 +6,8 @@
 
 namespace hedgerow::io {
 
-/// The file formats. All are read; `obj`, `ply`, `off` and `stl` are also written.
-enum class Format : std::uint8_t { obj, ply, off, stl, gltf, glb };
+/// The file formats. All are read; all but `gltf` and `glb` are also written.
+enum class Format : std::uint8_t { obj, ply, off, stl, gltf, glb, wet };
 
 /// Lower-case name, which is also the extension without its dot: "obj".
 [[nodiscard]] const char* name(Format format) noexcept;

@@ -42,6 +42,7 @@ enum class IoErrorCode : std::uint8_t {
   index_out_of_range,  ///< a face refers to a vertex that does not exist
   non_finite,          ///< a coordinate is NaN, infinite or too large for a float
   bad_face_degree,     ///< an STL loop without exactly three vertices, a negative face degree
+  inconsistent_table,  ///< an entry of a winged-edge table contradicts the others
   // glTF.
   bad_json,       ///< not JSON; or too deeply nested
   bad_gltf,       ///< JSON, but not a glTF asset

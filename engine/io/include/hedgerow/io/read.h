@@ -71,6 +71,8 @@ struct ReadOutput {
 ///       applied, and nothing is welded. Buffers may be embedded, or files in the directory of
 ///       `path`.
 ///
+/// WET   The faces of winged-edge tables; edges without a face are skipped. See winged_edge.h.
+///
 /// Pre        None: any file gives a mesh or an error. Only regular files are read. Lines end with
 ///            LF, CR LF or CR and may be of any length. Numbers do not depend on the locale.
 /// Complexity O(bytes). Memory is in proportion to the size of the file, whatever counts it

@@ -42,9 +42,11 @@ struct WriteOutput {
 ///           where a face has more than 255 corners.
 /// STL       Polygons are cut into a fan from their first corner; unreferenced vertices are lost,
 ///           as the format demands. Facet normals are computed; (0, 0, 0) for a face of no area.
+/// WET       Winged-edge tables in the default form, see winged_edge.h; builds connectivity on the
+///           way, and refuses (bad_mesh) what two-manifold records cannot hold. Normals are lost.
 ///
 /// Pre        None: a mesh with faces that refer to vertices that do not exist is refused.
-/// Complexity O(bytes); one block of 256 KiB is all the memory it takes.
+/// Complexity O(bytes); one block of 256 KiB is all the memory it takes, but for WET.
 /// Errors     unknown_extension, bad_mesh, too_many_elements, cannot_create, cannot_write. On any,
 ///            what was there is as it was, but for a stream. Throws std::bad_alloc.
 /// Threads    Any number of calls at once; of two for one target, the later commit stays.
