@@ -21,7 +21,7 @@ class OffReader {
     if (!read_counts() || !read_vertices() || !read_faces()) {
       return tl::unexpected<Failure>(std::move(failure_));
     }
-    next_line();
+    cursor_.skip_space_and_comments();
     if (!cursor_.at_end()) {
       context_.warn("trailing-bytes", cursor_.offset(), Place::text,
                     "there is more text behind the last face");
@@ -38,19 +38,6 @@ class OffReader {
     return false;
   }
 
-  // To the next word that is no comment, on this line or a later one.
-  void next_line() {
-    cursor_.skip_space();
-    while (cursor_.at('#')) {
-      cursor_.skip_line();
-      cursor_.skip_space();
-    }
-  }
-  bool at_value_end() {
-    cursor_.skip_blanks();
-    return cursor_.at_line_end() || cursor_.at('#');
-  }
-
   std::string word_at(const char* place) {
     TextCursor at_place = cursor_;
     at_place.set_position(place);
@@ -60,10 +47,10 @@ class OffReader {
   bool read_counts() {
     constexpr const char* kNames[] = {"vertices", "faces", "edges"};
     std::int64_t counts[3] = {};
-    next_line();
+    cursor_.skip_space_and_comments();
     for (int i = 0; i < 3; ++i) {
       const char* place = cursor_.position();
-      if (at_value_end()) {
+      if (cursor_.ends_before_comment()) {
         return cursor_.at_end() && i == 0 ? fail(IoErrorCode::unexpected_end, cursor_.end(),
                                                  "the file ends before the counts")
                                           : fail(IoErrorCode::missing_value, cursor_.position(),
@@ -98,7 +85,7 @@ class OffReader {
     xyz_ = Buffer<float>(3 * static_cast<std::size_t>(vertex_count_));
     for (std::int64_t v = 0; v < vertex_count_; ++v) {
       // Counts on the line of the first vertex are no line of their own, either.
-      next_line();
+      cursor_.skip_space_and_comments();
       context_.progress.at(cursor_.offset());
       if (cursor_.at_end()) {
         return fail(IoErrorCode::unexpected_end, cursor_.end(),
@@ -113,7 +100,7 @@ class OffReader {
   }
 
   bool read_coordinate(std::int64_t v, int axis) {
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
                   fmt::format("vertex {} has {} of 3 coordinates", v, axis));
     }
@@ -135,7 +122,7 @@ class OffReader {
 
   bool read_faces() {
     for (std::int64_t f = 0; f < face_count_; ++f) {
-      next_line();
+      cursor_.skip_space_and_comments();
       context_.progress.at(cursor_.offset());
       if (cursor_.at_end()) {
         return fail(IoErrorCode::unexpected_end, cursor_.end(),
@@ -171,7 +158,7 @@ class OffReader {
   }
 
   bool read_corner(std::int64_t f, std::int64_t k, std::int64_t degree) {
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
                   fmt::format("face {} has {} of {} corners", f, k, degree));
     }

@@ -35,18 +35,6 @@ class WetReader {
     failure_ = Failure{code, cursor_.offset_of(place), Place::text, std::move(message)};
     return false;
   }
-  // To the next word that is no comment, on this line or a later one.
-  void next_line() {
-    cursor_.skip_space();
-    while (cursor_.at('#')) {
-      cursor_.skip_line();
-      cursor_.skip_space();
-    }
-  }
-  bool at_value_end() {
-    cursor_.skip_blanks();
-    return cursor_.at_line_end() || cursor_.at('#');
-  }
   std::string_view word_at(const char* place) const {
     TextCursor there = cursor_;
     there.set_position(place);
@@ -54,21 +42,21 @@ class WetReader {
     return word.substr(0, word.find('#'));
   }
   bool end_line() {
-    if (at_value_end()) return true;
+    if (cursor_.ends_before_comment()) return true;
     return fail(IoErrorCode::unexpected_word, cursor_.position(),
                 fmt::format("{} follows the last value of this line",
                             in_quotes(word_at(cursor_.position()))));
   }
 
   bool read_version() {
-    next_line();
+    cursor_.skip_space_and_comments();
     const char* place = cursor_.position();
     if (word_at(place) != "wet") {
       return fail(IoErrorCode::bad_header, place, "the first word is not \"wet\"");
     }
     cursor_.set_position(place + 3);
     std::int64_t version = 0;
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(), "no version behind \"wet\"");
     }
     place = cursor_.position();
@@ -82,7 +70,7 @@ class WetReader {
 
   bool read_count(WingedTable table, std::size_t& count) {
     const auto i = static_cast<std::size_t>(table);
-    next_line();
+    cursor_.skip_space_and_comments();
     const char* place = cursor_.position();
     const std::string_view word = word_at(place);
     if (cursor_.at_end() || word != kTables[i]) {
@@ -93,7 +81,7 @@ class WetReader {
                               cursor_.at_end() ? "the end" : in_quotes(word)));
     }
     cursor_.set_position(place + word.size());
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
                   fmt::format("the number of {} is missing", kTables[i]));
     }
@@ -123,7 +111,7 @@ class WetReader {
   }
 
   bool begin_row(WingedTable table, std::size_t row, std::size_t count) {
-    next_line();
+    cursor_.skip_space_and_comments();
     context_.progress.at(cursor_.offset());
     if (!cursor_.at_end()) return true;
     return fail(IoErrorCode::unexpected_end, cursor_.end(),
@@ -133,7 +121,7 @@ class WetReader {
   // 0 is none; a number that no row can have becomes one that no row has.
   bool read_reference(WingedTable table, std::size_t row, const char* column, Index& value) {
     const char* place = cursor_.position();
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
                   fmt::format("{} row {} has no {}", name(table), row + 1, column));
     }
@@ -151,7 +139,7 @@ class WetReader {
   }
 
   bool read_coordinate(std::size_t row, int axis, float& value) {
-    if (at_value_end()) {
+    if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
                   fmt::format("vertices row {} has {} of 3 coordinates", row + 1, axis));
     }
@@ -214,7 +202,7 @@ class WetReader {
   }
 
   bool read_end() {
-    next_line();
+    cursor_.skip_space_and_comments();
     return cursor_.at_end() ||
            fail(IoErrorCode::unexpected_word, cursor_.position(),
                 fmt::format("{} follows the last row", in_quotes(word_at(cursor_.position()))));
@@ -223,10 +211,10 @@ class WetReader {
   // Looks the entry up in the text again, for its place and its digits.
   void report(const WingedFault& fault, std::size_t fault_count) {
     cursor_.set_position(start_of_[static_cast<std::size_t>(fault.table)]);
-    next_line();
+    cursor_.skip_space_and_comments();
     for (Index row = 0; row < fault.row; ++row) {
       cursor_.skip_to_line_end();
-      next_line();
+      cursor_.skip_space_and_comments();
     }
     std::size_t skipped = fault.table == WingedTable::vertices ? 3 : 0;
     if (fault.table == WingedTable::edges) skipped = static_cast<std::size_t>(fault.column) - 1;

@@ -81,6 +81,20 @@ class TextCursor {
     skip_to_line_end();
     skip_line_end();
   }
+  /// To the next word outside of comments, which run from '#' to the end of their line; on this
+  /// line or a later one.
+  void skip_space_and_comments() noexcept {
+    skip_space();
+    while (at('#')) {
+      skip_line();
+      skip_space();
+    }
+  }
+  /// Over blanks; whether nothing but a comment is left on this line.
+  [[nodiscard]] bool ends_before_comment() noexcept {
+    skip_blanks();
+    return at_line_end() || at('#');
+  }
   /// The characters up to the next blank or line end; empty at a line end.
   [[nodiscard]] std::string_view word() noexcept {
     const char* start = position_;
