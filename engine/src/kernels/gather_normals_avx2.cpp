@@ -1,6 +1,6 @@
 // Eight vertices are eight lanes: they walk round their rings together, their lists of corners are
 // sorted by one network of minimum and maximum, and the first corners of all are added, then the
-// second ones, and so on. Two such groups walk at once, as each step waits for memory.
+// second ones, and so on. Several such groups walk at once, as each step waits for memory.
 
 #include "kernels/gather_normals.h"
 #include "kernels/normals_avx2.h"
