@@ -16,8 +16,12 @@
 
 #include "hedgerow/boundary.h"
 #include "hedgerow/build.h"
+#include "hedgerow/corner_table.h"
+#include "hedgerow/dcel.h"
+#include "hedgerow/directed_edge.h"
 #include "hedgerow/normals.h"
 #include "hedgerow/query.h"
+#include "hedgerow/split_edge.h"
 #include "hedgerow/validate.h"
 
 namespace hedgerow {
@@ -119,7 +123,7 @@ Faces faces_of(int kind) {
 }
 
 template <class T>
-void expect_same(std::span<const T> a, std::span<const T> b) {
+void expect_same(std::span<T> a, std::span<T> b) {
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
 }
 
@@ -181,6 +185,32 @@ TEST_P(Races, LeaveNoTraceInTheBoundaryForms) {
   const auto opened = open_boundary(*parallel, plain_threads());
   ASSERT_TRUE(opened);
   expect_same(*opened, built->mesh);
+}
+
+// Backward links are written by the half-edges that they lead to.
+TEST_P(Races, LeaveNoTraceInRecords) {
+  const auto built = build(faces_.list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  const Execution threads = plain_threads().with_grain(64);
+  const auto dcel = build_dcel(built->mesh, Execution::serial());
+  const auto dcel_of_threads = build_dcel(built->mesh, threads);
+  ASSERT_TRUE(dcel && dcel_of_threads);
+  expect_same(dcel_of_threads->halfedges.span(), dcel->halfedges.span());
+  const auto ends = build_split_edges(built->mesh, Execution::serial());
+  const auto ends_of_threads = build_split_edges(built->mesh, threads);
+  ASSERT_TRUE(ends && ends_of_threads);
+  expect_same(ends_of_threads->ends.span(), ends->ends.span());
+  if (!built->mesh.is_triangle_mesh()) return;
+  const auto corners = build_corner_table(built->mesh, threads);
+  ASSERT_TRUE(corners);
+  const auto back = build_connectivity(*corners, threads);
+  ASSERT_TRUE(back);
+  expect_same(*back, built->mesh);
+  const auto edges = build_directed_edges(built->mesh, threads);
+  ASSERT_TRUE(edges);
+  const auto mesh = build_connectivity(*edges, threads);
+  ASSERT_TRUE(mesh);
+  expect_same(*mesh, built->mesh);
 }
 
 TEST_P(Races, LeaveNoTraceInValidationAndCounts) {

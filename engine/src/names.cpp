@@ -11,9 +11,8 @@ constexpr const char* kErrorNames[] = {
     "nonmanifold-edge",   "inconsistent-edge",  "nonmanifold-vertex", "isolated-vertex",
     "too-many-elements",  "bad-face-offsets",   "null-pointer",       "bad-stride",
     "count-mismatch",     "unsupported-policy", "scratch-too-small",  "already-closed",
-    "already-open",       "not-canonical",      "inconsistent-table"};
-static_assert(std::size(kErrorNames) ==
-              static_cast<std::size_t>(ErrorCode::inconsistent_table) + 1);
+    "already-open",       "not-canonical",      "inconsistent-table", "not-triangles"};
+static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::not_triangles) + 1);
 
 constexpr const char* kDefectNames[] = {
     "out-of-range",     "too-few-corners",   "repeated-vertex",    "duplicate-face",

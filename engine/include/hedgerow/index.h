@@ -38,6 +38,8 @@ using HalfedgeId = Id<struct HalfedgeTag>;
 using FaceId = Id<struct FaceTag>;
 /// Only representations with a record per edge number edges.
 using EdgeId = Id<struct EdgeTag>;
+/// Only corner tables tell corners from the half-edges that leave them.
+using CornerId = Id<struct CornerTag>;
 
 static_assert(sizeof(HalfedgeId) == sizeof(Index) && std::is_trivially_copyable_v<HalfedgeId>);
 

@@ -29,6 +29,7 @@ enum class ErrorCode : std::uint8_t {
   already_open,        ///< the mesh has no boundary half-edges to remove
   not_canonical,       ///< the operation needs the half-edges of each face in one run (I8)
   inconsistent_table,  ///< element = row; value = the entry found; limit = what would be consistent
+  not_triangles,       ///< element = smallest other face; value = its corner count; limit = 3
 };
 
 /// Stable lower-case word-with-dashes for messages and JSON, e.g. "index-out-of-range".

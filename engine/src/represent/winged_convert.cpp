@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "represent/number_halfedges.h"
 #include "represent/winged_sides.h"
 
 namespace hedgerow {
@@ -13,16 +14,19 @@ std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // ---- half-edges to tables
 
+// A vertex record has one edge, from which no second fan is found.
+Error describe_fans(FanTable fans) {
+  Error error{ErrorCode::nonmanifold_vertex, fans.front().vertex.value, 1, 1, 0};
+  for (std::size_t i = 0; i < fans.size(); ++i) {
+    error.value += fans[i].vertex == fans.front().vertex;
+    error.count += i == 0 || fans[i].vertex != fans[i - 1].vertex;
+  }
+  return error;
+}
+
 template <Topology Mesh>
 Result<void> check_holdable(const Mesh& mesh) {
-  if (const FanTable fans = mesh.fans; !fans.empty()) {
-    Error error{ErrorCode::nonmanifold_vertex, fans.front().vertex.value, 1, 1, 0};
-    for (std::size_t i = 0; i < fans.size(); ++i) {
-      error.value += fans[i].vertex == fans.front().vertex;
-      error.count += i == 0 || fans[i].vertex != fans[i - 1].vertex;
-    }
-    return fail(error);
-  }
+  if (!mesh.fans.empty()) return fail(describe_fans(mesh.fans));
   Index edge_count = 0;
   for (Index i = 0; i < mesh.halfedge_count(); ++i) {
     const HalfedgeId h(i);
@@ -124,147 +128,35 @@ Result<WingedEdgeTables> make_tables(const Connectivity& mesh, const WingedNumbe
 
 // ---- tables to half-edges
 
-// Numbers half-edges and fills the columns of consistent tables.
-class HalfedgeMaker {
+class SideSource {
  public:
-  explicit HalfedgeMaker(const WingedEdgeTables& tables)
-      : t_(tables), sides_(tables), halfedge_(at(sides_.count()), HalfedgeId()) {}
+  explicit SideSource(const WingedEdgeTables& tables) noexcept : t_(tables), sides_(tables) {}
 
-  Result<WingedHalfedges> run() {
-    if (Result<void> numbered = number_faces(); !numbered) return fail(numbered.error());
-    number_loops();
-    fill_columns();
-    if (Result<void> fans = fill_outgoing(); !fans) return fail(fans.error());
-    ConnectivityColumns columns;
-    columns.form = form_;
-    columns.all_triangles = all_triangles_;
-    columns.origin = std::move(origin_);
-    columns.opposite = std::move(opposite_);
-    columns.outgoing = std::move(outgoing_);
-    if (!all_triangles_ || form_ == Form::closed) {
-      columns.next = std::move(next_);
-      columns.face = std::move(face_);
-      columns.first = std::move(first_);
+  [[nodiscard]] Index record_count() const noexcept { return sides_.count(); }
+  [[nodiscard]] Index vertex_count() const noexcept { return t_.vertex_count(); }
+  [[nodiscard]] Index face_count() const noexcept { return t_.face_count(); }
+  [[nodiscard]] bool exists(Index s) const noexcept { return sides_.exists(s); }
+  [[nodiscard]] Index origin(Index s) const noexcept { return sides_.origin(s); }
+  [[nodiscard]] Index opposite(Index s) const noexcept {
+    return exists(s ^ 1) ? s ^ 1 : kInvalidIndex;
+  }
+  [[nodiscard]] Index next(Index s) const noexcept { return sides_.next(s); }
+  [[nodiscard]] Index face(Index s) const noexcept { return sides_.face(s); }
+  [[nodiscard]] Index face_record(Index f) const noexcept {
+    const Index e = t_.face_edge[at(f)].value;
+    return e == kInvalidIndex ? e : sides_.face(2 * e) == f ? 2 * e : 2 * e + 1;
+  }
+  template <class Visit>
+  void for_each_start(const Visit& visit) const {
+    for (Index v = 0; v < t_.vertex_count(); ++v) {
+      const EdgeId e = t_.vertex_edge[at(v)];
+      if (e.valid()) visit(sides_.leaving(e.value, v));
     }
-    return WingedHalfedges{Connectivity(std::move(columns)),
-                           {std::move(halfedge_), Buffer<EdgeId>::copy_of(t_.vertex_edge.span())}};
   }
 
  private:
-  // Numbers the sides of a cycle in a row. Returns how many there are.
-  Index number_cycle(Index start) {
-    const auto before = static_cast<Index>(side_.size());
-    Index s = start;
-    do {
-      halfedge_[at(s)] = HalfedgeId(static_cast<Index>(side_.size()));
-      side_.push_back(s);
-      s = sides_.next(s);
-    } while (s != start);
-    return static_cast<Index>(side_.size()) - before;
-  }
-
-  Result<void> number_faces() {
-    first_ = Buffer<Index>(at(t_.face_count()) + 1);
-    side_.reserve(at(sides_.count()));
-    for (Index f = 0; f < t_.face_count(); ++f) {
-      first_[at(f)] = static_cast<Index>(side_.size());
-      const Index e = t_.face_edge[at(f)].value;
-      Index degree = 0;
-      if (e != kInvalidIndex) degree = number_cycle(sides_.face(2 * e) == f ? 2 * e : 2 * e + 1);
-      if (degree < 3) return fail({ErrorCode::too_few_corners, f, degree, 3});
-      all_triangles_ &= degree == 3;
-    }
-    first_[at(t_.face_count())] = static_cast<Index>(side_.size());
-    return {};
-  }
-
-  void number_loops() {
-    const auto in_faces = static_cast<Index>(side_.size());
-    const auto add_loop = [&](Index s) {
-      if (!sides_.exists(s) || halfedge_[at(s)].valid()) return;
-      form_ = Form::closed;
-      number_cycle(s);
-    };
-    for (Index h = 0; h < in_faces; ++h) add_loop(side_[at(h)] ^ 1);
-    for (Index s = 0; s < sides_.count(); ++s) add_loop(s);  // of dangling edges alone
-    // A surface without boundary is the same in both forms; the default one is meant.
-  }
-
-  void fill_columns() {
-    const std::size_t count = side_.size();
-    origin_ = Buffer<Index>(count);
-    opposite_ = Buffer<Index>(count);
-    next_ = Buffer<Index>(count);
-    face_ = Buffer<Index>(count);
-    for (std::size_t h = 0; h < count; ++h) {
-      const Index s = side_[h];
-      origin_[h] = sides_.origin(s);
-      opposite_[h] = halfedge_[at(s ^ 1)].value;
-      next_[h] = halfedge_[at(sides_.next(s))].value;
-      face_[h] = sides_.face(s);
-    }
-  }
-
-  Result<void> fill_outgoing() {
-    const WingedEdgeView view(t_);
-    outgoing_ = Buffer<Index>(at(t_.vertex_count()));
-    std::vector<std::uint8_t> is_met(side_.size(), 0);
-    for (Index v = 0; v < t_.vertex_count(); ++v) {
-      const HalfedgeId start = view.outgoing[VertexId(v)];
-      outgoing_[at(v)] = start.valid() ? halfedge_[at(start.value)].value : kInvalidIndex;
-      if (start.valid()) meet_fan(outgoing_[at(v)], is_met);
-    }
-    const auto missed = std::find(is_met.begin(), is_met.end(), 0);
-    if (missed == is_met.end()) return {};
-    return fail(describe_fans(is_met));
-  }
-
-  // From the end of the fan: clockwise, until the fan ends or comes round.
-  void meet_fan(Index start, std::vector<std::uint8_t>& is_met) const {
-    Index h = start;
-    do {
-      is_met[at(h)] = 1;
-      const Index h_opposite = opposite_[at(h)];
-      h = h_opposite == kInvalidIndex ? start : next_[at(h_opposite)];
-    } while (h != start);
-  }
-
-  [[nodiscard]] Error describe_fans(std::vector<std::uint8_t>& is_met) const {
-    std::vector<Index> fans(at(t_.vertex_count()), 1);
-    std::vector<Index> prev(side_.size());
-    for (std::size_t h = 0; h < side_.size(); ++h) prev[at(next_[h])] = static_cast<Index>(h);
-    for (Index i = 0; i < static_cast<Index>(side_.size()); ++i) {
-      if (is_met[at(i)] != 0) continue;
-      ++fans[at(origin_[at(i)])];
-      Index start = i;
-      for (Index h = opposite_[at(prev[at(i)])]; h != kInvalidIndex && h != i;
-           h = opposite_[at(prev[at(h)])]) {
-        start = h;
-      }
-      meet_fan(start, is_met);
-    }
-    Error error{ErrorCode::nonmanifold_vertex, kInvalidIndex, 0, 1, 0};
-    for (Index v = t_.vertex_count(); v-- > 0;) {
-      if (fans[at(v)] == 1) continue;
-      error.element = v;
-      error.value = fans[at(v)];
-      ++error.count;
-    }
-    return error;
-  }
-
   const WingedEdgeTables& t_;
   WingedSides sides_;
-  Buffer<HalfedgeId> halfedge_;  // by side
-  std::vector<Index> side_;      // by half-edge
-  Buffer<Index> origin_;
-  Buffer<Index> opposite_;
-  Buffer<Index> next_;
-  Buffer<Index> face_;
-  Buffer<Index> first_;
-  Buffer<Index> outgoing_;
-  Form form_ = Form::open;
-  bool all_triangles_ = true;
 };
 
 }  // namespace
@@ -285,7 +177,12 @@ Result<WingedHalfedges> build_connectivity(const WingedEdgeTables& tables) {
     return fail({ErrorCode::inconsistent_table, fault.row, fault.found, fault.expected,
                  static_cast<std::int64_t>(faults.size())});
   }
-  return HalfedgeMaker(tables).run();
+  auto numbered = detail::HalfedgeMaker(SideSource(tables)).run();
+  if (!numbered) return fail(numbered.error());
+  if (const FanTable fans = numbered->mesh.fans(); !fans.empty()) return fail(describe_fans(fans));
+  return WingedHalfedges{std::move(numbered->mesh),
+                         {std::move(numbered->halfedge_of_record),
+                          Buffer<EdgeId>::copy_of(tables.vertex_edge.span())}};
 }
 
 HalfedgeId WingedEdgeView::Outgoing::operator[](VertexId v) const noexcept {
