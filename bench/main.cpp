@@ -54,6 +54,8 @@ void describe(CLI::App& app, Options& options) {
       ->check(CLI::PositiveNumber);
   app.add_option("--largest", options.plan.largest,
                  "Triangles of the largest meshes (default: by cache and memory)");
+  app.add_flag("--representations", options.plan.is_represented,
+               "Ask every representation the same questions, and nothing else");
   app.add_flag("--smoke", options.plan.is_smoke, "Every benchmark once, on tiny meshes");
   app.allow_extras();
 }
@@ -68,6 +70,7 @@ void add_all(const Plan& plan) {
   add_query(plan);
   add_validate(plan);
   add_reorder(plan);
+  add_representations(plan);
 }
 
 /// Hands what is left of the command line to Google Benchmark; false if that does not know it.

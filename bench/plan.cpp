@@ -39,6 +39,15 @@ Plan smoke_plan() {
   plan.all.push_back({"icosphere", 320, ""});
   plan.all.push_back({"fan", 300, ""});
   plan.disordered = {{"moved-0", 200, ""}, {"moved-400", 200, ""}};
+  plan.represented = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"icosphere", 320, ""}};
+  return plan;
+}
+
+Plan represented_plan() {
+  Plan plan;
+  for (const std::int64_t size : {std::int64_t{10'000}, kMillion, 4 * kMillion}) {
+    for (const char* order : {"grid", "shuffled"}) plan.represented.push_back({order, size, ""});
+  }
   return plan;
 }
 
@@ -78,7 +87,9 @@ std::int64_t largest_mesh() {
 
 Plan make_plan(const PlanOptions& options) {
   const std::int64_t largest = options.largest > 0 ? options.largest : largest_mesh();
-  Plan plan = options.is_smoke ? smoke_plan() : full_plan(largest);
+  Plan plan = options.is_smoke         ? smoke_plan()
+              : options.is_represented ? represented_plan()
+                                       : full_plan(largest);
   plan.is_smoke = options.is_smoke;
   plan.threads = options.threads;
   std::ranges::sort(plan.threads);
@@ -88,6 +99,7 @@ Plan make_plan(const PlanOptions& options) {
     const auto processors = static_cast<int>(std::thread::hardware_concurrency());
     if (processors > 1) plan.threads.push_back(processors);
   }
+  if (options.is_represented) return plan;
   for (const std::string& mesh : options.meshes) {
     const std::int64_t face_count = read_soup(mesh).face_count();
     const DatasetKey key{std::filesystem::path(mesh).stem().string(), face_count, mesh};

@@ -119,8 +119,9 @@ class Group {
   [[nodiscard]] std::vector<Row> take_rows() {
     std::vector<Row> rows;
     for (Contender& contender : contenders_) {
-      const Limit& limit = limit_of(contender);
-      contender.row.bandwidths = limit.kernels;
+      if (contender.row.traffic.total() > 0) {
+        contender.row.bandwidths = limit_of(contender).kernels;
+      }
       rows.push_back(std::move(contender.row));
     }
     return rows;
@@ -140,8 +141,9 @@ class Group {
     row.traffic = benchmark.traffic(data);
     row.mix = benchmark.mix;
     row.notes = contender.work.notes;
+    // Where no bytes are stated, as for questions to records, there is no limit to compare with.
+    if (row.traffic.total() > 0) add_limit(benchmark, row.traffic.total());
     contenders_.push_back(std::move(contender));
-    add_limit(benchmark, row.traffic.total());
   }
 
   void add_limit(const Case& benchmark, double bytes) {

@@ -57,10 +57,11 @@ struct Case {
 
 /// What to register: from the command line.
 struct Plan {
-  std::vector<DatasetKey> all;         ///< the main operations
-  std::vector<DatasetKey> with_peers;  ///< baselines and peer libraries as well
-  std::vector<DatasetKey> large;       ///< variants and whole-mesh operations as well
-  std::vector<DatasetKey> disordered;  ///< the two strategies of the builder, and nothing else
+  std::vector<DatasetKey> all;          ///< the main operations
+  std::vector<DatasetKey> with_peers;   ///< baselines and peer libraries as well
+  std::vector<DatasetKey> large;        ///< variants and whole-mesh operations as well
+  std::vector<DatasetKey> disordered;   ///< the two strategies of the builder, and nothing else
+  std::vector<DatasetKey> represented;  ///< every representation, and nothing else
   std::vector<int> threads;
   bool is_smoke = false;  ///< tiny meshes, one iteration each
 
@@ -89,6 +90,7 @@ void add_circulate(const Plan& plan);
 void add_normals(const Plan& plan);
 void add_query(const Plan& plan);
 void add_reorder(const Plan& plan);
+void add_representations(const Plan& plan);
 void add_validate(const Plan& plan);
 
 /// Runs what was registered and passed the filter with Google Benchmark, one after the other, for

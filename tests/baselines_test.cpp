@@ -9,6 +9,7 @@
 
 #include "baselines/bandwidth.h"
 #include "baselines/pointer_mesh.h"
+#include "baselines/pointer_winged_mesh.h"
 #include "baselines/struct_mesh.h"
 #include "hedgerow/build.h"
 #include "hedgerow/face_list.h"
@@ -17,6 +18,7 @@ namespace hedgerow::test {
 namespace {
 
 using baselines::PointerHalfedgeMesh;
+using baselines::PointerWingedEdgeMesh;
 using baselines::StructHalfedgeMesh;
 
 struct Input {
@@ -63,7 +65,7 @@ Input random_triangles(std::uint32_t seed) {
 
 template <class Mesh>
 class Baseline : public testing::Test {};
-using Meshes = testing::Types<PointerHalfedgeMesh, StructHalfedgeMesh>;
+using Meshes = testing::Types<PointerHalfedgeMesh, PointerWingedEdgeMesh, StructHalfedgeMesh>;
 TYPED_TEST_SUITE(Baseline, Meshes);
 
 TYPED_TEST(Baseline, PairsTheHalfedgesOfATetrahedron) {
@@ -140,6 +142,13 @@ TEST(Baselines, AgreeWithEachOtherAndTheEngineOnRandomTriangles) {
     PointerHalfedgeMesh pointers(input.faces(), input.positions());
     StructHalfedgeMesh structs(input.faces(), input.positions());
     EXPECT_EQ(pointers.opposite(), structs.opposite());
+    PointerWingedEdgeMesh winged(input.faces(), input.positions());
+    EXPECT_EQ(winged.opposite(), structs.opposite());
+    EXPECT_EQ(winged.outgoing(), structs.outgoing());
+    EXPECT_EQ(winged.boundary_loop_count(), structs.boundary_loop_count());
+    EXPECT_EQ(winged.component_count(), structs.component_count());
+    winged.compute_face_normals();
+    winged.compute_vertex_normals(NormalWeight::angle);
     EXPECT_EQ(pointers.outgoing(), structs.outgoing());
     EXPECT_EQ(pointers.boundary_loop_count(), structs.boundary_loop_count());
     EXPECT_EQ(pointers.component_count(), structs.component_count());
@@ -160,6 +169,7 @@ TEST(Baselines, AgreeWithEachOtherAndTheEngineOnRandomTriangles) {
     pointers.compute_vertex_normals(NormalWeight::angle);
     structs.compute_vertex_normals(NormalWeight::angle);
     EXPECT_EQ(pointers.vertex_normals(), structs.vertex_normals());
+    EXPECT_EQ(winged.vertex_normals(), structs.vertex_normals());
   }
 }
 

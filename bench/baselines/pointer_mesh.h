@@ -58,6 +58,16 @@ class PointerHalfedgeMesh {
     return static_cast<Index>(halfedges_.size());
   }
   [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.size()); }
+  [[nodiscard]] const Vertex& vertex(Index v) const noexcept {
+    return *vertices_[static_cast<std::size_t>(v)];
+  }
+  [[nodiscard]] Vertex& vertex(Index v) noexcept { return *vertices_[static_cast<std::size_t>(v)]; }
+  [[nodiscard]] const Halfedge& halfedge(Index h) const noexcept {
+    return *halfedges_[static_cast<std::size_t>(h)];
+  }
+  [[nodiscard]] const Face& face(Index f) const noexcept {
+    return *faces_[static_cast<std::size_t>(f)];
+  }
 
   /// Stores the unit normal and twice the area of every face (Newell's sum for polygons); a face of
   /// zero area gets (0, 0, 0). O(H).
@@ -91,6 +101,23 @@ class PointerHalfedgeMesh {
   std::vector<std::unique_ptr<Vertex>> vertices_;
   std::vector<std::unique_ptr<Halfedge>> halfedges_;  ///< face by face, in the order of the corners
   std::vector<std::unique_ptr<Face>> faces_;
+};
+
+/// Steps on the records of a `PointerHalfedgeMesh`, each O(1).
+struct HalfedgeWalk {
+  using Handle = const PointerHalfedgeMesh::Halfedge*;
+
+  static bool is_valid(Handle h) noexcept { return h != nullptr; }
+  static Handle next(Handle h) noexcept { return h->next; }
+  static Handle prev(Handle h) noexcept { return h->prev; }
+  static Handle opposite(Handle h) noexcept { return h->opposite; }
+  static Index origin(Handle h) noexcept { return h->vertex->id; }
+  static const float* position(Handle h) noexcept { return h->vertex->position; }
+  static const PointerHalfedgeMesh::Face& face(Handle h) noexcept { return *h->face; }
+  static Handle outgoing(const PointerHalfedgeMesh::Vertex& vertex) noexcept {
+    return vertex.halfedge;
+  }
+  static Handle first(const PointerHalfedgeMesh::Face& face) noexcept { return face.halfedge; }
 };
 
 }  // namespace hedgerow::baselines

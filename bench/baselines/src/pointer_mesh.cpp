@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "baselines/src/edge_map.h"
 #include "baselines/src/ring_algorithms.h"
 
 namespace hedgerow::baselines {
@@ -13,39 +14,7 @@ namespace {
 
 using Halfedge = PointerHalfedgeMesh::Halfedge;
 
-struct Walk {
-  using Handle = const Halfedge*;
-
-  static bool is_valid(Handle h) noexcept { return h != nullptr; }
-  static Handle next(Handle h) noexcept { return h->next; }
-  static Handle prev(Handle h) noexcept { return h->prev; }
-  static Handle opposite(Handle h) noexcept { return h->opposite; }
-  static Index origin(Handle h) noexcept { return h->vertex->id; }
-  static const float* position(Handle h) noexcept { return h->vertex->position; }
-  static const PointerHalfedgeMesh::Face& face(Handle h) noexcept { return *h->face; }
-};
-
-/// An edge as its smaller and larger vertex.
-struct EdgeKey {
-  Index smaller;
-  Index larger;
-
-  friend bool operator==(EdgeKey, EdgeKey) noexcept = default;
-};
-
-struct EdgeKeyHash {
-  std::size_t operator()(EdgeKey key) const noexcept {
-    const std::uint64_t mixed = static_cast<std::uint64_t>(key.smaller) * 0x9E3779B97F4A7C15U +
-                                static_cast<std::uint64_t>(key.larger);
-    return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
-  }
-};
-
-/// What the map knows of an edge: the first half-edge met on it, and how many there were.
-struct EdgeEntry {
-  Halfedge* first = nullptr;
-  Index count = 0;
-};
+using Walk = HalfedgeWalk;
 
 }  // namespace
 
@@ -92,11 +61,11 @@ void PointerHalfedgeMesh::make_faces(const FaceList& faces) {
 }
 
 void PointerHalfedgeMesh::pair_opposites() {
-  std::unordered_map<EdgeKey, EdgeEntry, EdgeKeyHash> edges;
+  detail::EdgeMap<Halfedge*> edges;
   edges.reserve(halfedges_.size() / 2 + 1);
   for (const auto& h : halfedges_) {
     const auto [smaller, larger] = std::minmax(h->vertex->id, h->next->vertex->id);
-    EdgeEntry& edge = edges[EdgeKey{smaller, larger}];
+    auto& edge = edges[{smaller, larger}];
     ++edge.count;
     if (edge.count == 1) {
       edge.first = h.get();
