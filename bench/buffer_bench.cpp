@@ -40,6 +40,7 @@ Traffic traffic(const Dataset& data) { return {0, kIndexBytes * counts_of(data).
 }  // namespace
 
 void add_buffer(const Plan& plan) {
+  if (plan.large.empty()) return;
   const DatasetKey& key = plan.large.front();
   add(plan, {"fill_column", key, 1, "", prepare<Buffer<Index>>, traffic, Mix::copy});
   add(plan, {"fill_column", key, 1, "vector", prepare<std::vector<Index>>, traffic, Mix::copy});

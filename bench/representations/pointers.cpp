@@ -49,7 +49,15 @@ class PointerWalk : public Steps {
   [[nodiscard]] Handle outgoing(Index v) const noexcept {
     return Steps::outgoing(mesh_->vertex(v));
   }
-  [[nodiscard]] Handle first(Index f) const noexcept { return Steps::first(mesh_->face(f)); }
+  template <class Visit>
+  void for_each_side(Index f, const Visit& visit) const {
+    const Handle start = Steps::first(mesh_->face(f));
+    Handle h = start;
+    do {
+      visit(h);
+      h = Steps::next(h);
+    } while (!(h == start));
+  }
 
  protected:
   const Mesh* mesh_;

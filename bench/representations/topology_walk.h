@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "hedgerow/corner_table.h"
+#include "hedgerow/directed_edge.h"
 #include "hedgerow/positions.h"
 #include "hedgerow/topology.h"
 #include "representations/walked_mesh.h"
@@ -18,6 +20,9 @@ class TopologyWalk {
  public:
   using Handle = HalfedgeId;
   static constexpr bool kIsClosed = is_closed;
+  static constexpr bool kIsInRows =
+      std::same_as<View, TriangleView> || std::same_as<View, PolygonView> ||
+      std::same_as<View, DirectedEdgeView> || std::same_as<View, CornerTableView>;
 
   TopologyWalk(const View& view, Positions positions) : view_(view), positions_(positions) {}
 
@@ -35,8 +40,22 @@ class TopologyWalk {
   [[nodiscard]] Index vertex_count() const noexcept { return view_.vertex_count(); }
   [[nodiscard]] Index face_count() const noexcept { return view_.face_count(); }
   [[nodiscard]] Handle outgoing(Index v) const noexcept { return view_.outgoing[VertexId(v)]; }
-  [[nodiscard]] Handle first(Index f) const noexcept { return view_.first(FaceId(f)); }
 
+  // Where the half-edges of a face are in a row, nobody would ask for the next one.
+  template <class Visit>
+  void for_each_side(Index f, const Visit& visit) const {
+    const Handle start = view_.first(FaceId(f));
+    if constexpr (kIsInRows) {
+      const Index end = start.value + view_.degree(FaceId(f));
+      for (Handle h = start; h.value < end; ++h.value) visit(h);
+    } else {
+      Handle h = start;
+      do {
+        visit(h);
+        h = view_.next(h);
+      } while (h != start);
+    }
+  }
   template <class Visit>
   void for_each_halfedge(const Visit& visit) const {
     for (Index h = 0; h < view_.halfedge_count(); ++h) {

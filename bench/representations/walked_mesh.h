@@ -16,9 +16,9 @@ namespace hedgerow::bench {
 ///
 /// `Walk` has a `Handle` of a half-edge, with ==; is_valid, next, prev, opposite (invalid: none),
 /// origin, target and face (numbers; -1 = none) of it; position of its origin; vertex_count(),
-/// face_count(), outgoing(v), first(f); for_each_halfedge(visit) and for_each_edge(visit), which
-/// gives one half-edge of each edge; kIsClosed; and `Marks`, a set of half-edges made from a walk.
-/// One fan at each vertex.
+/// face_count(), outgoing(v); for_each_side(f, visit), for_each_halfedge(visit) and
+/// for_each_edge(visit), which gives one half-edge of each edge; kIsClosed; and `Marks`, a set of
+/// half-edges made from a walk. One fan at each vertex.
 template <class Walk>
 class Walked {
  public:
@@ -77,21 +77,12 @@ class Walked {
     return as_number(element + 1) * sum;
   }
 
-  template <class Visit>
-  void for_each_side(Index f, const Visit& visit) const {
-    const Handle start = walk_.first(f);
-    Handle h = start;
-    do {
-      visit(h);
-      h = walk_.next(h);
-    } while (!(h == start));
-  }
   template <class OfSide>
   [[nodiscard]] std::uint64_t sum_over_faces(const OfSide& of_side) const {
     std::uint64_t total = 0;
     for (Index f = 0; f < walk_.face_count(); ++f) {
       std::uint64_t sum = 0;
-      for_each_side(f, [&](Handle h) { sum += of_side(h); });
+      walk_.for_each_side(f, [&](Handle h) { sum += of_side(h); });
       total += weighed(f, sum);
     }
     return total;
@@ -115,7 +106,7 @@ class Walked {
         std::uint64_t count = 0;
         for (Index f = 0; f < walk_.face_count(); ++f) {
           bool is_boundary = false;
-          for_each_side(f, [&](Handle h) { is_boundary |= !has_face_across(h); });
+          walk_.for_each_side(f, [&](Handle h) { is_boundary |= !has_face_across(h); });
           count += is_boundary;
         }
         return count;
