@@ -4,6 +4,8 @@
   perf_table.py --measure build/release/bench/hedgerow_bench [--mesh FILE]... [--rounds 5]
       runs the benchmarks, once more on the portable path, stores bench/results/results.json and
       rewrites the tables (bench/count.py makes counts.json, bench/perf_plots.py the pictures)
+  perf_table.py --representations PROG [--rounds 3]
+      the same for what all representations are asked: bench/results/representations.json
   perf_table.py                 rewrites the tables from the stored results
   perf_table.py --check         exit status 1 if the tables are not those of the stored results
   perf_table.py --targets PROG  measures only what the tables of targets need, and prints them
@@ -19,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 
+from perf_representations import REPRESENTATIONS, read_representations, representation_tables
 from perf_results import FOLDER, Results, merge, read_counts, read_results, write_document
 from perf_results import RESULTS
 from perf_tables import SWEPT, all_tables, readme_tables, rewrite, targets_table
@@ -53,10 +56,12 @@ def main(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--measure", metavar="PROGRAM")
     parser.add_argument("--targets", metavar="PROGRAM")
+    parser.add_argument("--representations", metavar="PROGRAM")
     parser.add_argument("--mesh", action="append", default=[], help="also measure on this mesh")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS)
+    parser.add_argument("--answers", type=pathlib.Path, default=REPRESENTATIONS)
     parser.add_argument("--perf", type=pathlib.Path, default=PERF)
     parser.add_argument("--readme", type=pathlib.Path, default=README)
     options = parser.parse_args(arguments)
@@ -71,13 +76,23 @@ def main(arguments):
         return 0
     if options.measure:
         write_document(measure(options.measure, measured), options.results)
+    if options.representations:
+        answers = run(options.representations, ["--representations", *measured])
+        write_document(answers, options.answers)
+    return write_pages(options)
 
+
+def write_pages(options):
+    """Rewrites or checks each page; returns the exit status."""
     results, counts = read_results(options.results), read_counts()
-    pages = {options.perf: all_tables(), options.readme: readme_tables()}
+    answers = read_representations(options.answers)
+    pages = {options.perf: [(results, all_tables()), (answers, representation_tables())],
+             options.readme: [(results, readme_tables())]}
     status = 0
-    for page, tables in pages.items():
-        text = page.read_text(encoding="utf-8")
-        made = rewrite(text, results, counts, tables)
+    for page, parts in pages.items():
+        text = made = page.read_text(encoding="utf-8")
+        for source, tables in parts:
+            made = rewrite(made, source, counts, tables)
         if not options.check:
             page.write_text(made, encoding="utf-8")
         elif made != text:

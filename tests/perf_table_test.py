@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "bench")
 
 import count  # noqa: E402
 import perf_format  # noqa: E402
+import perf_representations  # noqa: E402
 import perf_results  # noqa: E402
 import perf_table  # noqa: E402
 import perf_tables  # noqa: E402
@@ -227,6 +228,33 @@ totals: 147 15 3 1
         self.assertEqual(row["functions"], {"check_triangle_runs": 107, "link": 40})
 
 
+class Representations(unittest.TestCase):
+    def answers(self):
+        def row(question, kind, milliseconds, **more):
+            return entry(f"represent_{question}/grid/10k/1/{kind}", milliseconds, elements=1e6, **more)
+        return results(row("build", "flat", 3, bytes_per_edge=17.5),
+                       row("build", "dcel", 6, bytes_per_edge=43.0),
+                       row("ring_vertices", "flat", [9, 7, 8]), row("ring_vertices", "dcel", 4))
+
+    def test_sets_the_least_of_each_question_in_bold(self):
+        lines = perf_representations.comparison_table("grid", "10k")(self.answers(), NO_COUNTS)
+        flat = list(perf_representations.KINDS).index("flat")
+        dcel = list(perf_representations.KINDS).index("dcel")
+
+        def cells(title):
+            line = next(line for line in lines.splitlines() if line.startswith(f"| {title} |"))
+            return [cell.strip() for cell in line.split("|")[2:-1]]
+        self.assertEqual(cells("bytes an edge")[flat], "**17.5**")
+        self.assertEqual(cells("build, edge")[dcel], "6.00")
+        self.assertEqual(cells("neighbours, vertex")[flat], "8.00")
+        self.assertEqual(cells("neighbours, vertex")[dcel], "**4.00**")
+        self.assertEqual(set(cells("genus, edge")), {""})
+
+    def test_another_size_or_order_is_another_table(self):
+        other = perf_representations.comparison_table("shuffled", "10k")(self.answers(), NO_COUNTS)
+        self.assertNotIn("8.00", other)
+
+
 class Rewrite(unittest.TestCase):
     def text(self, names):
         return "".join(f"prose of {name}\n<!-- table:{name} begin -->\nold\n"
@@ -252,7 +280,8 @@ class Rewrite(unittest.TestCase):
             perf = pathlib.Path(folder) / "PERF.md"
             stored = pathlib.Path(folder) / "results.json"
             perf_results.write_document(document(entry("build/grid/4M/1", 20)), stored)
-            perf.write_text(self.text(list(perf_tables.all_tables())), encoding="utf-8")
+            names = [*perf_tables.all_tables(), *perf_representations.representation_tables()]
+            perf.write_text(self.text(names), encoding="utf-8")
             readme = pathlib.Path(folder) / "README.md"
             readme.write_text(self.text(perf_tables.readme_tables()), encoding="utf-8")
             arguments = ["--perf", str(perf), "--results", str(stored), "--readme", str(readme)]
