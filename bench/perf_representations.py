@@ -50,8 +50,12 @@ class Answers:
         return row["bytes_per_edge"] if row else None
 
 
+FOLDED = 0.01  # ns: the compiler has found the answer, and no element was looked at
+
+
 def cells_of(values):
     """Texts, the least in bold."""
+    values = [0 if value is not None and value < FOLDED else value for value in values]
     found = [value for value in values if value is not None]
     return ["" if value is None else f"**{number(value)}**" if value == min(found) else number(value)
             for value in values]
@@ -100,16 +104,20 @@ def choice(results, _counts):
         f"**Flat + radial** ({size_of('radial')} bytes, {told('build', 'radial')} ns) where edges have "
         f"more than two faces: the cycle of an edge costs {told('edge_faces', 'radial')} ns for "
         f"{told('edge_faces', 'flat')} by `opposite`.",
-        f"**Directed edge** ({size_of('directed-edge')} bytes) to hand records on, and for rings of "
-        f"shuffled meshes ({told('ring_vertices', 'directed-edge', 'shuffled')} ns), for a record is "
-        f"one cache line where the columns are two.",
-        f"**Corner table** ({size_of('corner-table')} bytes) for code that is written for it; its "
-        f"rings cost {told('ring_vertices', 'corner-table')} ns, as each step passes through two "
-        f"corners.",
-        f"**DCEL** and **split edge** ({size_of('dcel')} and {size_of('split-edge')} bytes) where "
-        f"every link backward is asked for as often as forward: counter-clockwise "
-        f"{told('ring_reversed', 'dcel')} and {told('ring_reversed', 'split-edge')} ns for "
-        f"{told('ring_reversed', 'flat-closed')} of the closed columns.",
+        f"**Directed edge** and **corner table** ({size_of('directed-edge')} bytes each) for code that is "
+        f"written for them: records in place of columns gain a ring nothing "
+        f"({told('ring_vertices', 'directed-edge')} / "
+        f"{told('ring_vertices', 'directed-edge', 'shuffled')} ns), and each step through opposite "
+        f"corners costs twice as much ({told('ring_vertices', 'corner-table')} / "
+        f"{told('ring_vertices', 'corner-table', 'shuffled')}).",
+        f"**DCEL** ({size_of('dcel')} bytes) for a shuffled mesh that stays so, since all about a "
+        f"half-edge is in one or two cache lines: a ring in {told('ring_vertices', 'dcel', 'shuffled')} "
+        f"ns, counter-clockwise in {told('ring_reversed', 'dcel', 'shuffled')} for "
+        f"{told('ring_reversed', 'flat-closed', 'shuffled')} of the closed columns; in order it is "
+        f"behind them.",
+        f"**Split edge** ({size_of('split-edge')} bytes) where only rings are walked, which it has "
+        f"stored: {told('ring_halfedges', 'split-edge', 'shuffled')} ns for the half-edges of a ring, "
+        f"but {told('face_vertices', 'split-edge', 'shuffled')} for the vertices of a face, shuffled.",
         f"**Winged tables** ({size_of('winged-tables')} bytes) to exchange: each step compares "
         f"vertices, {told('ring_vertices', 'winged-tables')} ns a ring.",
         f"**Non-manifold** records ({size_of('nonmanifold')} bytes, built in "

@@ -26,7 +26,6 @@ class NonmanifoldMesh final : public Representation {
       case Question::face_vertices:
       case Question::face_edges:
       case Question::face_faces:
-      case Question::face_degree:
       case Question::face_neighbours:
       case Question::is_boundary_face:
         return of_faces(question);
@@ -37,6 +36,8 @@ class NonmanifoldMesh final : public Representation {
       case Question::ring_faces:
       case Question::is_boundary_vertex:
         return of_vertices(question);
+      case Question::face_degree:
+        return of_uses();
       case Question::edge_faces:
       case Question::is_boundary_half:
       case Question::is_boundary_edge:
@@ -94,9 +95,6 @@ class NonmanifoldMesh final : public Representation {
         case Question::face_faces:
           for (const EdgeId e : edges_.edges_of(f)) sum += sum_across(e, f);
           return weighed(f.value, sum);
-        case Question::face_degree:
-          sum = edges_.face_vertices[f].size();
-          return sum * sum;  // asked once for each half-edge
         case Question::face_neighbours:
           for (const EdgeId e : edges_.edges_of(f)) sum += edges_.uses[e].size() - 1;
           return weighed(f.value, sum);
@@ -126,6 +124,13 @@ class NonmanifoldMesh final : public Representation {
       }
     }
     return total;
+  }
+
+  // A use of an edge is what a half-edge is elsewhere.
+  [[nodiscard]] std::uint64_t of_uses() const {
+    std::uint64_t sum = 0;
+    for (const EdgeUse& use : edges_.uses.values) sum += edges_.face_vertices[use.face].size();
+    return sum;
   }
 
   [[nodiscard]] std::uint64_t of_edges(Question question) const {
