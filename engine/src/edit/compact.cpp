@@ -1,0 +1,79 @@
+#include <utility>
+
+#include "hedgerow/edit.h"
+#include "represent/forms.h"
+#include "represent/number_halfedges.h"
+
+namespace hedgerow {
+
+namespace {
+
+// The elements that are left, with vertices and faces by their new numbers.
+class LiveSource {
+ public:
+  explicit LiveSource(const EditMesh& mesh) : mesh_(mesh), view_(mesh.view()) {
+    Index count = 0;
+    vertices_.resize(static_cast<std::size_t>(mesh.vertex_count()));
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.has(VertexId(v))) vertices_[static_cast<std::size_t>(v)] = VertexId(count++);
+    }
+    vertex_count_ = count;
+    faces_.resize(static_cast<std::size_t>(mesh.face_count()));
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      if (!mesh.has(FaceId(f))) continue;
+      faces_[static_cast<std::size_t>(f)] = FaceId(static_cast<Index>(old_faces_.size()));
+      old_faces_.push_back(f);
+    }
+  }
+
+  [[nodiscard]] Index record_count() const noexcept { return view_.halfedge_count(); }
+  [[nodiscard]] Index vertex_count() const noexcept { return vertex_count_; }
+  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(old_faces_.size()); }
+  [[nodiscard]] bool exists(Index h) const noexcept { return mesh_.has(HalfedgeId(h)); }
+  [[nodiscard]] Index origin(Index h) const noexcept {
+    return vertices_[static_cast<std::size_t>(view_.origin[HalfedgeId(h)].value)].value;
+  }
+  [[nodiscard]] Index opposite(Index h) const noexcept {
+    return view_.opposite[HalfedgeId(h)].value;
+  }
+  [[nodiscard]] Index next(Index h) const noexcept { return view_.next(HalfedgeId(h)).value; }
+  [[nodiscard]] Index face(Index h) const noexcept {
+    const FaceId f = view_.face(HalfedgeId(h));
+    return f.valid() ? faces_[static_cast<std::size_t>(f.value)].value : kInvalidIndex;
+  }
+  [[nodiscard]] Index face_record(Index f) const noexcept {
+    return view_.first(FaceId(old_faces_[static_cast<std::size_t>(f)])).value;
+  }
+  template <class Visit>
+  void for_each_start(const Visit& visit) const {
+    for (Index v = 0; v < view_.vertex_count(); ++v) visit(view_.outgoing[VertexId(v)].value);
+    for (const FanStart& fan : view_.fans) visit(fan.start.value);
+  }
+
+  [[nodiscard]] std::vector<VertexId> take_vertices() { return std::move(vertices_); }
+  [[nodiscard]] std::vector<FaceId> take_faces() { return std::move(faces_); }
+
+ private:
+  const EditMesh& mesh_;
+  EditView view_;
+  std::vector<VertexId> vertices_;
+  std::vector<FaceId> faces_;
+  std::vector<Index> old_faces_;
+  Index vertex_count_ = 0;
+};
+
+}  // namespace
+
+Result<Compacted> EditMesh::compact() const {
+  LiveSource source(*this);
+  auto numbered = detail::HalfedgeMaker(source).run();
+  if (!numbered) return fail(numbered.error());
+  auto made = detail::to_form(std::move(*numbered), form_, Execution::serial());
+  if (!made) return fail(made.error());
+  const std::span<const HalfedgeId> halfedges = std::as_const(made->halfedge_of_record).span();
+  return Compacted{
+      std::move(made->mesh),
+      {source.take_vertices(), {halfedges.begin(), halfedges.end()}, source.take_faces()}};
+}
+
+}  // namespace hedgerow

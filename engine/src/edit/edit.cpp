@@ -1,0 +1,338 @@
+#include "edit/edit.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "hedgerow/boundary.h"
+
+namespace hedgerow {
+
+Edit::Edit(EditMesh& mesh) noexcept : m_(mesh) {
+  Change& change = m_.change_;
+  change.writes.clear();
+  change.births.clear();
+  change.deaths.clear();
+  change.is_complete = m_.is_recording_;
+  change.counts_before[0] = m_.vertex_count();
+  change.counts_before[1] = m_.halfedge_count();
+  change.counts_before[2] = m_.face_count();
+}
+
+EditResult Edit::done() {
+  Change& change = m_.change_;
+  change.counts_after[0] = m_.vertex_count();
+  change.counts_after[1] = m_.halfedge_count();
+  change.counts_after[2] = m_.face_count();
+  return &change;
+}
+
+void Edit::set(EditColumn column, Index index, Index value) {
+  Index& entry = m_.column(column)[static_cast<std::size_t>(index)];
+  if (m_.is_recording_ && entry != value) {
+    m_.change_.writes.push_back({column, index, entry, value});
+  }
+  entry = value;
+}
+
+void Edit::note_birth(const Birth& birth) {
+  if (m_.is_recording_) m_.change_.births.push_back(birth);
+}
+void Edit::note_death(const Death& death) {
+  if (m_.is_recording_) m_.change_.deaths.push_back(death);
+}
+
+void Edit::give(HalfedgeId begin, HalfedgeId end, FaceId f) {
+  for (HalfedgeId h = begin; h != end; h = next(h)) set_face(h, f);
+}
+
+VertexId Edit::add_vertex(VertexId source, VertexId other) {
+  const VertexId v(m_.vertex_count());
+  m_.outgoing_.push_back(kInvalidIndex);
+  m_.is_gone_.push_back(0);
+  note_birth({Element::vertex, v.value, source.value, other.value});
+  return v;
+}
+
+HalfedgeId Edit::add_halfedge(VertexId origin, FaceId face, HalfedgeId source) {
+  const HalfedgeId h(m_.halfedge_count());
+  for (auto* column : {&m_.origin_, &m_.opposite_, &m_.next_, &m_.prev_, &m_.face_}) {
+    column->push_back(kInvalidIndex);
+  }
+  set_origin(h, origin);
+  set_face(h, face);
+  note_birth({Element::halfedge, h.value, source.value});
+  return h;
+}
+
+FaceId Edit::add_face(HalfedgeId first, FaceId source) {
+  const FaceId f(m_.face_count());
+  m_.first_.push_back(kInvalidIndex);
+  set_first(f, first);
+  note_birth({Element::face, f.value, source.value});
+  return f;
+}
+
+void Edit::remove(VertexId v) {
+  set_outgoing(v, HalfedgeId());
+  set(EditColumn::is_gone, v.value, 1);
+  note_death({Element::vertex, v.value});
+}
+
+void Edit::remove(HalfedgeId h) {
+  for (const EditColumn column : {EditColumn::origin, EditColumn::opposite, EditColumn::next,
+                                  EditColumn::prev, EditColumn::face}) {
+    set(column, h.value, kInvalidIndex);
+  }
+  note_death({Element::halfedge, h.value});
+}
+
+void Edit::remove(FaceId f) {
+  set_first(f, HalfedgeId());
+  note_death({Element::face, f.value});
+}
+
+void Edit::settle(VertexId v, HalfedgeId h) {
+  HalfedgeId g = h;
+  do {
+    if (!face(g).valid()) {
+      set_outgoing(v, g);
+      return;
+    }
+    g = clockwise(g);
+  } while (g != h);
+  set_outgoing(v, h);
+}
+
+void Edit::settle_if_needed(VertexId v, HalfedgeId h) {
+  const HalfedgeId start = outgoing(v);
+  const bool leaves = start.valid() && m_.has(start) && origin(start) == v;
+  if (leaves && !face(start).valid()) return;
+  settle(v, leaves ? start : h);
+}
+
+// ---- tests
+
+EditCheck EditTest::has(HalfedgeId h) const noexcept {
+  return mesh_.has(h) ? EditCheck{} : EditCheck{Refusal::no_such_element, h.value};
+}
+
+EditCheck EditTest::has_room(Index vertices, Index halfedges, Index faces) const noexcept {
+  const bool fits = vertices <= kMaxCount - mesh_.vertex_count() &&
+                    halfedges <= kMaxCount - mesh_.halfedge_count() &&
+                    faces <= kMaxCount - mesh_.face_count();
+  return fits ? EditCheck{} : EditCheck{Refusal::too_many, kMaxCount};
+}
+
+EditCheck EditTest::has_one_fan(std::initializer_list<VertexId> vertices) const noexcept {
+  if (view_.fans.empty()) return {};
+  for (const VertexId v : vertices) {
+    if (!extra_fans(view_.fans, v).empty()) return {Refusal::several_fans, v.value};
+  }
+  return {};
+}
+
+bool EditTest::is_in(FaceId f, VertexId v) const noexcept {
+  const auto corners = vertices(view_, f);
+  return std::ranges::find(corners, v) != corners.end();
+}
+
+bool EditTest::is_triangle(HalfedgeId h) const noexcept {
+  return view_.next(view_.next(view_.next(h))) == h;
+}
+
+bool EditTest::is_on_boundary(VertexId v) const noexcept {
+  return view_.outgoing[v].valid() && !view_.face(view_.outgoing[v]).valid();
+}
+
+Index EditTest::gaps(VertexId v) const noexcept {
+  Index count = 0;
+  for (const HalfedgeId h : outgoing_halfedges(view_, v)) count += !view_.face(h).valid();
+  return count;
+}
+
+bool EditTest::have_face(VertexId a, VertexId b, FaceId but, FaceId and_but) const noexcept {
+  for (const FaceId f : incident_faces(view_, a)) {
+    if (f != but && f != and_but && is_in(f, b)) return true;
+  }
+  return false;
+}
+
+// ---- the mesh
+
+namespace {
+
+constexpr const char* kRefusalNames[] = {
+    "none",         "no-such-element", "boundary",       "same-face",      "other-face",
+    "adjacent",     "same-vertex",     "duplicate-edge", "duplicate-face", "link-condition",
+    "several-fans", "too-few-corners", "not-a-path",     "too-many",       "other-state"};
+static_assert(std::size(kRefusalNames) == static_cast<std::size_t>(Refusal::other_state) + 1);
+
+template <class Column>
+std::vector<Index> copy_of(const Column& column) {
+  return {column.data(), column.data() + column.size()};
+}
+
+}  // namespace
+
+const char* name(Refusal refusal) noexcept {
+  return kRefusalNames[static_cast<std::size_t>(refusal)];
+}
+
+Result<EditMesh> EditMesh::of(const Connectivity& mesh, const Execution& execution) {
+  if (mesh.form() == Form::open) {
+    const Result<Connectivity> closed = close_boundary(mesh, execution);
+    if (!closed) return fail(closed.error());
+    Result<EditMesh> made = of(*closed, execution);
+    made->form_ = Form::open;
+    return made;
+  }
+  const PolygonView view = mesh.polygons();
+  EditMesh made;
+  made.form_ = Form::closed;
+  made.origin_ = copy_of(view.origin);
+  made.opposite_ = copy_of(view.opposite);
+  made.next_ = copy_of(view.next_of);
+  made.face_ = copy_of(view.face_of);
+  made.outgoing_ = copy_of(view.outgoing);
+  made.first_.assign(view.first_of.data(), view.first_of.data() + view.face_count());
+  made.fans_.assign(view.fans.begin(), view.fans.end());
+  made.is_gone_.assign(made.outgoing_.size(), 0);
+  made.prev_.resize(made.next_.size());
+  for (Index h = 0; h < made.halfedge_count(); ++h) made.prev_[at(made.next_[at(h)])] = h;
+  return made;
+}
+
+std::vector<Index>& EditMesh::column(EditColumn which) noexcept {
+  switch (which) {
+    case EditColumn::origin:
+      return origin_;
+    case EditColumn::opposite:
+      return opposite_;
+    case EditColumn::next:
+      return next_;
+    case EditColumn::prev:
+      return prev_;
+    case EditColumn::face:
+      return face_;
+    case EditColumn::outgoing:
+      return outgoing_;
+    case EditColumn::is_gone:
+      return is_gone_;
+    default:
+      return first_;
+  }
+}
+
+EditView EditMesh::view() const noexcept {
+  return {{origin_.data(), halfedge_count()}, {opposite_.data(), halfedge_count()},
+          {outgoing_.data(), vertex_count()}, {next_.data(), halfedge_count()},
+          {prev_.data(), halfedge_count()},   {face_.data(), halfedge_count()},
+          {first_.data(), face_count()},      fans_};
+}
+
+HalfedgeId EditMesh::find(VertexId a, VertexId b) const noexcept {
+  const EditView mesh = view();
+  for (const HalfedgeId h : outgoing_halfedges(mesh, a)) {
+    if (mesh.target(h) == b) return h;
+  }
+  return {};
+}
+
+void EditMesh::reserve(Index vertices, Index halfedges, Index faces, Index writes) {
+  for (auto* column : {&origin_, &opposite_, &next_, &prev_, &face_}) {
+    column->reserve(at(halfedges));
+  }
+  outgoing_.reserve(at(vertices));
+  is_gone_.reserve(at(vertices));
+  first_.reserve(at(faces));
+  change_.writes.reserve(at(writes));
+  change_.births.reserve(at(writes));
+  change_.deaths.reserve(at(writes));
+}
+
+std::vector<Index> Change::changed(Element element) const {
+  std::vector<Index> ids;
+  const Index old_count = counts_before[static_cast<std::size_t>(element)];
+  for (const Write& write : writes) {
+    if (element_of(write.column) == element && write.index < old_count) ids.push_back(write.index);
+  }
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  std::erase_if(ids, [&](Index id) {
+    return std::ranges::any_of(
+        deaths, [&](const Death& death) { return death.element == element && death.id == id; });
+  });
+  return ids;
+}
+
+namespace {
+
+// The columns of one kind of element, to make longer and shorter.
+constexpr std::array kColumns = {EditColumn::origin,  EditColumn::opposite, EditColumn::next,
+                                 EditColumn::prev,    EditColumn::face,     EditColumn::outgoing,
+                                 EditColumn::is_gone, EditColumn::first};
+
+bool has_counts(const EditMesh& mesh, const Index (&counts)[3]) noexcept {
+  return mesh.vertex_count() == counts[0] && mesh.halfedge_count() == counts[1] &&
+         mesh.face_count() == counts[2];
+}
+
+}  // namespace
+
+EditCheck EditMesh::undo(const Change& change) {
+  if (!change.is_complete || !has_counts(*this, change.counts_after)) {
+    return {Refusal::other_state, kInvalidIndex};
+  }
+  // An entry may have been written several times: only the last value stands there now.
+  std::size_t undone = change.writes.size();
+  for (; undone > 0; --undone) {
+    const Write& write = change.writes[undone - 1];
+    Index& entry = column(write.column)[at(write.index)];
+    if (entry != write.after) break;
+    entry = write.before;
+  }
+  if (undone > 0) {
+    const EditCheck refused{Refusal::other_state, change.writes[undone - 1].index};
+    for (std::size_t i = undone; i < change.writes.size(); ++i) {
+      const Write& write = change.writes[i];
+      column(write.column)[at(write.index)] = write.after;
+    }
+    return refused;
+  }
+  for (const EditColumn which : kColumns) {
+    column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]));
+  }
+  return {};
+}
+
+EditCheck EditMesh::replay(const Change& change) {
+  if (!change.is_complete || !has_counts(*this, change.counts_before)) {
+    return {Refusal::other_state, kInvalidIndex};
+  }
+  for (const EditColumn which : kColumns) {
+    const Index none = which == EditColumn::is_gone ? 0 : kInvalidIndex;
+    column(which).resize(at(change.counts_after[static_cast<std::size_t>(element_of(which))]),
+                         none);
+  }
+  for (std::size_t i = 0; i < change.writes.size(); ++i) {
+    const Write& write = change.writes[i];
+    Index& entry = column(write.column)[at(write.index)];
+    if (entry == write.before) {
+      entry = write.after;
+      continue;
+    }
+    for (; i > 0; --i) {
+      const Write& done = change.writes[i - 1];
+      column(done.column)[at(done.index)] = done.before;
+    }
+    for (const EditColumn which : kColumns) {
+      column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]));
+    }
+    return {Refusal::other_state, write.index};
+  }
+  return {};
+}
+
+}  // namespace hedgerow

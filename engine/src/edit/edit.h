@@ -1,0 +1,97 @@
+#pragma once
+
+#include <initializer_list>
+
+#include "hedgerow/circulate.h"
+#include "hedgerow/edit.h"
+
+namespace hedgerow {
+
+/// One edit under way: reads and writes the columns of a mesh, and keeps the record of it. What it
+/// is asked to do has been found possible.
+class Edit {
+ public:
+  explicit Edit(EditMesh& mesh) noexcept;
+
+  [[nodiscard]] VertexId origin(HalfedgeId h) const noexcept { return VertexId(m_.origin_[i(h)]); }
+  [[nodiscard]] VertexId target(HalfedgeId h) const noexcept { return origin(opposite(h)); }
+  [[nodiscard]] HalfedgeId opposite(HalfedgeId h) const noexcept {
+    return HalfedgeId(m_.opposite_[i(h)]);
+  }
+  [[nodiscard]] HalfedgeId next(HalfedgeId h) const noexcept { return HalfedgeId(m_.next_[i(h)]); }
+  [[nodiscard]] HalfedgeId prev(HalfedgeId h) const noexcept { return HalfedgeId(m_.prev_[i(h)]); }
+  [[nodiscard]] FaceId face(HalfedgeId h) const noexcept { return FaceId(m_.face_[i(h)]); }
+  [[nodiscard]] HalfedgeId first(FaceId f) const noexcept { return HalfedgeId(m_.first_[i(f)]); }
+  [[nodiscard]] HalfedgeId outgoing(VertexId v) const noexcept {
+    return HalfedgeId(m_.outgoing_[i(v)]);
+  }
+  /// The next half-edge that leaves the same vertex.
+  [[nodiscard]] HalfedgeId clockwise(HalfedgeId h) const noexcept { return next(opposite(h)); }
+
+  void set_origin(HalfedgeId h, VertexId v) { set(EditColumn::origin, h.value, v.value); }
+  void set_face(HalfedgeId h, FaceId f) { set(EditColumn::face, h.value, f.value); }
+  void set_first(FaceId f, HalfedgeId h) { set(EditColumn::first, f.value, h.value); }
+  void set_outgoing(VertexId v, HalfedgeId h) { set(EditColumn::outgoing, v.value, h.value); }
+  /// `g` follows `h`.
+  void link(HalfedgeId h, HalfedgeId g) {
+    set(EditColumn::next, h.value, g.value);
+    set(EditColumn::prev, g.value, h.value);
+  }
+  /// They are opposite.
+  void pair(HalfedgeId h, HalfedgeId o) {
+    set(EditColumn::opposite, h.value, o.value);
+    set(EditColumn::opposite, o.value, h.value);
+  }
+  /// Gives the half-edges from `begin` up to, and without, `end` to the face.
+  void give(HalfedgeId begin, HalfedgeId end, FaceId f);
+
+  VertexId add_vertex(VertexId source, VertexId other = {});
+  HalfedgeId add_halfedge(VertexId origin, FaceId face, HalfedgeId source = {});
+  FaceId add_face(HalfedgeId first, FaceId source);
+  void remove(VertexId v);
+  void remove(HalfedgeId h);
+  void remove(FaceId f);
+
+  /// The vertex starts its rotation at `h`, or on the boundary if it has one (I6).
+  void settle(VertexId v, HalfedgeId h);
+  /// The same if it starts on the boundary no longer, or at a half-edge that is gone.
+  void settle_if_needed(VertexId v, HalfedgeId h);
+
+  EditResult done();
+
+ private:
+  template <class Id>
+  static std::size_t i(Id id) noexcept {
+    return static_cast<std::size_t>(id.value);
+  }
+  void set(EditColumn column, Index index, Index value);
+  void note_birth(const Birth& birth);
+  void note_death(const Death& death);
+
+  EditMesh& m_;
+};
+
+/// What the questions before an edit are made of.
+class EditTest {
+ public:
+  explicit EditTest(const EditMesh& mesh) noexcept : mesh_(mesh), view_(mesh.view()) {}
+
+  [[nodiscard]] const EditView& view() const noexcept { return view_; }
+  [[nodiscard]] EditCheck has(HalfedgeId h) const noexcept;
+  /// That there is room for so many more.
+  [[nodiscard]] EditCheck has_room(Index vertices, Index halfedges, Index faces) const noexcept;
+  [[nodiscard]] EditCheck has_one_fan(std::initializer_list<VertexId> vertices) const noexcept;
+  [[nodiscard]] bool is_in(FaceId f, VertexId v) const noexcept;
+  [[nodiscard]] bool is_triangle(HalfedgeId h) const noexcept;
+  [[nodiscard]] bool is_on_boundary(VertexId v) const noexcept;
+  /// The number of boundary half-edges that leave `v`.
+  [[nodiscard]] Index gaps(VertexId v) const noexcept;
+  /// Whether some face at `a`, but for these two, has `b` as a corner.
+  [[nodiscard]] bool have_face(VertexId a, VertexId b, FaceId but, FaceId and_but) const noexcept;
+
+ private:
+  const EditMesh& mesh_;
+  EditView view_;
+};
+
+}  // namespace hedgerow

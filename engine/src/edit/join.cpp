@@ -1,0 +1,181 @@
+// Edits that take an edge away: collapse, and joining two faces.
+#include "edit/edit.h"
+
+namespace hedgerow {
+
+EditCheck EditMesh::can_join_faces(HalfedgeId h) const {
+  const EditTest test(*this);
+  if (const EditCheck exists = test.has(h); !exists) return exists;
+  const EditView& mesh = test.view();
+  const HalfedgeId o = mesh.opposite[h];
+  const FaceId f = mesh.face(h);
+  const FaceId g = mesh.face(o);
+  if (!f.valid() || !g.valid()) return {Refusal::boundary, h.value};
+  if (f == g) return {Refusal::same_face, f.value};
+  const VertexId a = mesh.origin[h];
+  const VertexId b = mesh.origin[o];
+  for (const VertexId v : vertices(mesh, g)) {
+    if (v != a && v != b && test.is_in(f, v)) return {Refusal::same_vertex, v.value};
+  }
+  return test.has_one_fan({a, b});
+}
+
+EditResult EditMesh::join_faces(HalfedgeId h) {
+  if (const EditCheck possible = can_join_faces(h); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  const HalfedgeId o = edit.opposite(h);
+  const HalfedgeId n = edit.next(h);
+  const HalfedgeId m = edit.next(o);
+  const FaceId f = edit.face(h);
+  const FaceId g = edit.face(o);
+  const VertexId a = edit.origin(h);
+  const VertexId b = edit.origin(o);
+  edit.give(m, o, f);
+  edit.link(edit.prev(h), m);
+  edit.link(edit.prev(o), n);
+  if (edit.first(f) == h) edit.set_first(f, n);
+  if (edit.outgoing(a) == h) edit.set_outgoing(a, m);
+  if (edit.outgoing(b) == o) edit.set_outgoing(b, n);
+  edit.remove(h);
+  edit.remove(o);
+  edit.remove(g);
+  return edit.done();
+}
+
+namespace {
+
+// The vertex across the edge of h if that side is a triangle.
+VertexId apex(const EditTest& test, HalfedgeId h) {
+  return test.is_triangle(h) ? test.view().origin[test.view().prev(h)] : VertexId();
+}
+
+// A triangle whose two other edges are on the boundary would leave an edge without a face.
+bool would_dangle(const EditTest& test, HalfedgeId h) {
+  const EditView& mesh = test.view();
+  if (!test.is_triangle(h)) return false;
+  const FaceId beyond_next = mesh.face(mesh.opposite[mesh.next(h)]);
+  const FaceId beyond_prev = mesh.face(mesh.opposite[mesh.prev(h)]);
+  return !beyond_next.valid() && !beyond_prev.valid();
+}
+
+// A neighbour that both ends have is a duplicate edge, unless the triangle between goes.
+EditCheck test_neighbours(const EditTest& test, HalfedgeId h) {
+  const EditView& mesh = test.view();
+  const VertexId a = mesh.origin[h];
+  const VertexId b = mesh.target(h);
+  const VertexId left = apex(test, h);
+  const VertexId right = apex(test, mesh.opposite[h]);
+  for (const HalfedgeId to_b : outgoing_halfedges(mesh, b)) {
+    const VertexId v = mesh.target(to_b);
+    if (v == a || v == left || v == right) continue;
+    for (const HalfedgeId to_a : outgoing_halfedges(mesh, a)) {
+      if (mesh.target(to_a) == v) return {Refusal::link_condition, v.value};
+    }
+  }
+  return {};
+}
+
+// A triangle at a whose third edge has a triangle with b on the other side.
+EditCheck test_triangles(const EditTest& test, HalfedgeId h) {
+  const EditView& mesh = test.view();
+  const VertexId b = mesh.target(h);
+  const FaceId f = mesh.face(h);
+  const FaceId g = mesh.face(mesh.opposite[h]);
+  for (const HalfedgeId out : outgoing_halfedges(mesh, mesh.origin[h])) {
+    const FaceId at = mesh.face(out);
+    if (!at.valid() || at == f || at == g || !test.is_triangle(out)) continue;
+    const HalfedgeId beyond = mesh.opposite[mesh.next(out)];
+    if (mesh.face(beyond).valid() && apex(test, beyond) == b) {
+      return {Refusal::duplicate_face, mesh.face(beyond).value};
+    }
+  }
+  return {};
+}
+
+// Sews the two sides of what is left of a triangle after its edge went: n and its next.
+void close_side(Edit& edit, HalfedgeId n) {
+  const HalfedgeId p = edit.next(n);
+  if (edit.next(p) != n) return;
+  const HalfedgeId beyond_n = edit.opposite(n);
+  const HalfedgeId beyond_p = edit.opposite(p);
+  const VertexId across = edit.origin(p);
+  const VertexId b = edit.origin(n);
+  const FaceId f = edit.face(n);
+  edit.pair(beyond_n, beyond_p);
+  edit.remove(n);
+  edit.remove(p);
+  edit.remove(f);
+  edit.settle_if_needed(across, beyond_n);
+  edit.settle_if_needed(b, beyond_p);
+}
+
+}  // namespace
+
+EditCheck EditMesh::can_collapse(HalfedgeId h) const {
+  const EditTest test(*this);
+  if (const EditCheck exists = test.has(h); !exists) return exists;
+  const EditView& mesh = test.view();
+  const HalfedgeId o = mesh.opposite[h];
+  const VertexId a = mesh.origin[h];
+  const VertexId b = mesh.origin[o];
+  const FaceId f = mesh.face(h);
+  const FaceId g = mesh.face(o);
+  if (!f.valid() && !g.valid()) return {Refusal::boundary, h.value};
+  const VertexId left = apex(test, h);
+  const VertexId right = apex(test, o);
+  if (const EditCheck one = test.has_one_fan({a, b}); !one) return one;
+  for (const VertexId v : {left, right}) {
+    if (!v.valid()) continue;
+    if (const EditCheck one = test.has_one_fan({v}); !one) return one;
+  }
+  const bool is_inner = f.valid() && g.valid();
+  if (is_inner && test.is_on_boundary(a) && test.is_on_boundary(b)) {
+    return {Refusal::several_fans, b.value};
+  }
+  for (const VertexId v : {a, b}) {
+    if (test.gaps(v) > 1) return {Refusal::several_fans, v.value};
+  }
+  // A hole of three edges would be gone, and with it a boundary loop.
+  for (const HalfedgeId side : {h, o}) {
+    if (!mesh.face(side).valid() && test.is_triangle(side)) return {Refusal::boundary, side.value};
+  }
+  if (would_dangle(test, h) || would_dangle(test, o)) return {Refusal::boundary, h.value};
+  if (left.valid() && left == right) return {Refusal::link_condition, left.value};
+  if (const EditCheck apart = test_neighbours(test, h); !apart) return apart;
+  if (const EditCheck distinct = test_triangles(test, h); !distinct) return distinct;
+  if (test.have_face(a, b, f, g)) return {Refusal::same_vertex, b.value};
+  return {};
+}
+
+EditResult EditMesh::collapse(HalfedgeId h) {
+  if (const EditCheck possible = can_collapse(h); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  const HalfedgeId o = edit.opposite(h);
+  const HalfedgeId n = edit.next(h);
+  const HalfedgeId m = edit.next(o);
+  const VertexId a = edit.origin(h);
+  const VertexId b = edit.origin(o);
+  const FaceId f = edit.face(h);
+  const FaceId g = edit.face(o);
+  HalfedgeId k = h;
+  do {
+    const HalfedgeId after = edit.clockwise(k);
+    edit.set_origin(k, b);
+    k = after;
+  } while (k != h);
+  edit.link(edit.prev(h), n);
+  edit.link(edit.prev(o), m);
+  if (f.valid() && edit.first(f) == h) edit.set_first(f, n);
+  if (g.valid() && edit.first(g) == o) edit.set_first(g, m);
+  const HalfedgeId start = edit.outgoing(a);
+  edit.remove(h);
+  edit.remove(o);
+  edit.remove(a);
+  // The boundary of either is that of both.
+  edit.settle_if_needed(b, start != h && !edit.face(start).valid() ? start : n);
+  close_side(edit, n);
+  if (has(m)) close_side(edit, m);
+  return edit.done();
+}
+
+}  // namespace hedgerow

@@ -1,0 +1,230 @@
+// Edits that turn an edge or make elements: flip, and the splits of edges, faces and vertices.
+#include "edit/edit.h"
+
+namespace hedgerow {
+
+// ---- flip
+
+EditCheck EditMesh::can_flip(HalfedgeId h) const {
+  const EditTest test(*this);
+  if (const EditCheck exists = test.has(h); !exists) return exists;
+  const EditView& mesh = test.view();
+  const HalfedgeId o = mesh.opposite[h];
+  const FaceId f = mesh.face(h);
+  const FaceId g = mesh.face(o);
+  if (!f.valid() || !g.valid()) return {Refusal::boundary, h.value};
+  if (f == g) return {Refusal::same_face, f.value};
+  const VertexId c = mesh.target(mesh.next(o));
+  const VertexId d = mesh.target(mesh.next(h));
+  // Each face takes a vertex over from the other one.
+  if (test.is_in(f, c)) return {Refusal::same_vertex, c.value};
+  if (test.is_in(g, d)) return {Refusal::same_vertex, d.value};
+  if (find(c, d).valid()) return {Refusal::duplicate_edge, find(c, d).value};
+  return test.has_one_fan({mesh.origin[h], mesh.origin[o], c, d});
+}
+
+EditResult EditMesh::flip(HalfedgeId h) {
+  if (const EditCheck possible = can_flip(h); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  const HalfedgeId o = edit.opposite(h);
+  const HalfedgeId n = edit.next(h);
+  const HalfedgeId m = edit.next(o);
+  const HalfedgeId p = edit.prev(h);
+  const HalfedgeId q = edit.prev(o);
+  const FaceId f = edit.face(h);
+  const FaceId g = edit.face(o);
+  const VertexId a = edit.origin(h);
+  const VertexId b = edit.origin(o);
+  const VertexId c = edit.target(m);
+  const VertexId d = edit.target(n);
+  edit.link(h, edit.next(n));
+  edit.link(o, edit.next(m));
+  edit.link(p, m);
+  edit.link(m, h);
+  edit.link(q, n);
+  edit.link(n, o);
+  edit.set_origin(h, c);
+  edit.set_origin(o, d);
+  edit.set_face(m, f);
+  edit.set_face(n, g);
+  if (edit.first(f) == n) edit.set_first(f, h);
+  if (edit.first(g) == m) edit.set_first(g, o);
+  if (edit.outgoing(a) == h) edit.set_outgoing(a, m);
+  if (edit.outgoing(b) == o) edit.set_outgoing(b, n);
+  return edit.done();
+}
+
+// ---- splits
+
+namespace {
+
+// A vertex on the edge of h, which ends there. Returns the half-edge that goes on from it.
+HalfedgeId insert(Edit& edit, HalfedgeId h) {
+  const HalfedgeId o = edit.opposite(h);
+  const VertexId v = edit.add_vertex(edit.origin(h), edit.origin(o));
+  const HalfedgeId on = edit.add_halfedge(v, edit.face(h), h);
+  const HalfedgeId back = edit.add_halfedge(v, edit.face(o), o);
+  const HalfedgeId n = edit.next(h);
+  const HalfedgeId m = edit.next(o);
+  edit.link(on, n);
+  edit.link(back, m);
+  edit.link(h, on);
+  edit.link(o, back);
+  edit.pair(h, back);
+  edit.pair(on, o);
+  edit.set_outgoing(v, edit.face(on).valid() && !edit.face(back).valid() ? back : on);
+  return on;
+}
+
+// An edge between the origins of h and g, which are in one face: that keeps what follows h.
+void cut_face(Edit& edit, HalfedgeId h, HalfedgeId g) {
+  const FaceId f = edit.face(h);
+  const HalfedgeId before_h = edit.prev(h);
+  const HalfedgeId before_g = edit.prev(g);
+  const HalfedgeId there = edit.add_halfedge(edit.origin(h), f);
+  const HalfedgeId back = edit.add_halfedge(edit.origin(g), f);
+  edit.pair(there, back);
+  edit.link(before_g, back);
+  edit.link(back, h);
+  edit.link(before_h, there);
+  edit.link(there, g);
+  const FaceId cut_off = edit.add_face(g, f);
+  edit.give(there, before_h, cut_off);
+  edit.set_face(before_h, cut_off);
+  if (edit.face(edit.first(f)) != f) edit.set_first(f, h);
+}
+
+}  // namespace
+
+EditCheck EditMesh::can_insert_vertex(HalfedgeId h) const {
+  const EditTest test(*this);
+  if (const EditCheck exists = test.has(h); !exists) return exists;
+  return test.has_room(1, 2, 0);
+}
+
+EditResult EditMesh::insert_vertex(HalfedgeId h) {
+  if (const EditCheck possible = can_insert_vertex(h); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  insert(edit, h);
+  return edit.done();
+}
+
+EditCheck EditMesh::can_split_edge(HalfedgeId h) const {
+  const EditTest test(*this);
+  if (const EditCheck exists = test.has(h); !exists) return exists;
+  const EditView& mesh = test.view();
+  const HalfedgeId o = mesh.opposite[h];
+  const VertexId across = mesh.origin[mesh.prev(h)];
+  const bool cuts_both =
+      mesh.face(h).valid() && mesh.face(o).valid() && test.is_triangle(h) && test.is_triangle(o);
+  if (cuts_both && across == mesh.origin[mesh.prev(o)]) {
+    return {Refusal::duplicate_edge, mesh.prev(h).value};
+  }
+  return test.has_room(1, 6, 2);
+}
+
+EditResult EditMesh::split_edge(HalfedgeId h) {
+  if (const EditCheck possible = can_split_edge(h); !possible) return tl::unexpected(possible);
+  const EditTest test(*this);
+  const HalfedgeId o = test.view().opposite[h];
+  const bool cuts_left = test.view().face(h).valid() && test.is_triangle(h);
+  const bool cuts_right = test.view().face(o).valid() && test.is_triangle(o);
+  Edit edit(*this);
+  const HalfedgeId on = insert(edit, h);
+  if (cuts_left) cut_face(edit, on, edit.prev(h));
+  if (cuts_right) cut_face(edit, edit.opposite(h), edit.prev(o));
+  return edit.done();
+}
+
+EditCheck EditMesh::can_split_face(FaceId f) const {
+  if (!has(f)) return {Refusal::no_such_element, f.value};
+  const Index n = view().degree(f);
+  return EditTest(*this).has_room(1, n <= kMaxCount / 2 ? 2 * n : kMaxCount, n - 1);
+}
+
+EditResult EditMesh::split_face(FaceId f) {
+  if (const EditCheck possible = can_split_face(f); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  const HalfedgeId start = edit.first(f);
+  const VertexId v = edit.add_vertex(edit.origin(start));
+  HalfedgeId h = start;
+  FaceId part = f;
+  const HalfedgeId first_in = edit.add_halfedge(edit.origin(h), FaceId());
+  HalfedgeId in = first_in;  // from the origin of h to v; belongs to the part before
+  do {
+    const HalfedgeId after = edit.next(h);
+    const HalfedgeId out = edit.add_halfedge(v, part);
+    edit.pair(in, out);
+    const HalfedgeId next_in =
+        after == start ? first_in : edit.add_halfedge(edit.origin(after), part);
+    edit.set_face(next_in, part);
+    edit.set_face(h, part);
+    edit.link(out, h);
+    edit.link(h, next_in);
+    edit.link(next_in, out);
+    if (h == start) edit.set_outgoing(v, out);
+    if (after != start) part = edit.add_face(after, f);
+    in = next_in;
+    h = after;
+  } while (h != start);
+  return edit.done();
+}
+
+EditCheck EditMesh::can_connect(HalfedgeId h, HalfedgeId g) const {
+  const EditTest test(*this);
+  for (const HalfedgeId side : {h, g}) {
+    if (const EditCheck exists = test.has(side); !exists) return exists;
+  }
+  const EditView& mesh = test.view();
+  if (!mesh.face(h).valid()) return {Refusal::boundary, h.value};
+  if (mesh.face(h) != mesh.face(g)) return {Refusal::other_face, g.value};
+  if (mesh.origin[h] == mesh.origin[g]) return {Refusal::same_vertex, mesh.origin[g].value};
+  if (mesh.next(h) == g || mesh.next(g) == h) return {Refusal::adjacent, g.value};
+  const HalfedgeId there = find(mesh.origin[h], mesh.origin[g]);
+  if (there.valid()) return {Refusal::duplicate_edge, there.value};
+  return test.has_room(0, 2, 1);
+}
+
+EditResult EditMesh::connect(HalfedgeId h, HalfedgeId g) {
+  if (const EditCheck possible = can_connect(h, g); !possible) return tl::unexpected(possible);
+  Edit edit(*this);
+  cut_face(edit, h, g);
+  return edit.done();
+}
+
+EditCheck EditMesh::can_split_vertex(HalfedgeId h, HalfedgeId g) const {
+  const EditTest test(*this);
+  for (const HalfedgeId side : {h, g}) {
+    if (const EditCheck exists = test.has(side); !exists) return exists;
+  }
+  const EditView& mesh = test.view();
+  const VertexId v = mesh.origin[h];
+  if (mesh.origin[g] != v) return {Refusal::not_a_path, g.value};
+  if (h == g) return {Refusal::adjacent, g.value};
+  if (const EditCheck one = test.has_one_fan({v}); !one) return one;
+  return test.has_room(1, 2, 0);
+}
+
+EditResult EditMesh::split_vertex(HalfedgeId h, HalfedgeId g) {
+  if (const EditCheck possible = can_split_vertex(h, g); !possible) {
+    return tl::unexpected(possible);
+  }
+  Edit edit(*this);
+  const VertexId v = edit.origin(h);
+  const VertexId w = edit.add_vertex(v);
+  const HalfedgeId before_h = edit.prev(h);
+  const HalfedgeId before_g = edit.prev(g);
+  const HalfedgeId there = edit.add_halfedge(v, edit.face(h));
+  const HalfedgeId back = edit.add_halfedge(w, edit.face(g));
+  for (HalfedgeId k = h; k != g; k = edit.clockwise(k)) edit.set_origin(k, w);
+  edit.pair(there, back);
+  edit.link(before_h, there);
+  edit.link(there, h);
+  edit.link(before_g, back);
+  edit.link(back, g);
+  edit.settle(w, back);
+  edit.settle_if_needed(v, there);
+  return edit.done();
+}
+
+}  // namespace hedgerow
