@@ -1,5 +1,5 @@
-// Edits of all kinds, at random, on small meshes: each leaves a sound mesh or nothing changed, can be
-// taken back and done again.
+// Edits of all kinds, at random, on small meshes: each leaves a sound mesh or nothing changed, can
+// be taken back and done again.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -109,7 +109,7 @@ static_assert(Topology<EditView>);
 /// Cost       Each edit is O(valence) and O(degree) of what it touches.
 /// Threads    As of any object: one writer, or any number of readers.
 ///
-/// What an edit touches: + are born, - die, ~ change; nothing else does. (h: a to b, o its opposite)
+/// What an edit touches: + born, - dead, ~ changed; no other. (h runs from a to b, o is opposite.)
 ///
 ///  flip           ~ h, o and the next of each; a, b; both faces
 ///  insert_vertex  + 1 vertex, 2 half-edges  ~ h, o and the next of each
@@ -117,16 +117,16 @@ static_assert(Topology<EditView>);
 ///  split_face     + 1 vertex, 2 n half-edges, n - 1 faces  ~ half-edges of the face
 ///  connect        + 2 half-edges, 1 face  ~ half-edges of the face
 ///  join_faces     - h, o, the face of o  ~ half-edges of that face; a, b
-///  collapse       - a, h, o; of each triangle at h two more half-edges, and it  ~ what left a; half-
-///                 edges of both faces; b, the vertices across
+///  collapse       - a, h, o; of each triangle at h two more half-edges, and it  ~ what left a;
+///                 half-edges of both faces; b, the vertices across
 ///  split_vertex   + 1 vertex, 2 half-edges  ~ half-edges that go over to the new vertex; a
 ///  add_vertex     + 1 vertex
-///  remove_vertex  - the vertex, its faces, and their edges that have no other face  ~ what is round
+///  remove_vertex  - the vertex, its faces, and their edges that have no other  ~ what is round it
 ///  add_face       + 1 face, 2 half-edges for each new edge  ~ boundary half-edges at its vertices
 ///  remove_face    - the face, and its edges that have no other  ~ its half-edges and vertices
 ///  cut            + a vertex for each that is passed or open, 2 half-edges for each edge  ~ half-
 ///                 edges on the right of the path
-///  zip            - the target of the second edge, the boundary half-edges  ~ what left that vertex
+///  zip            - the target of the second edge, the boundary half-edges  ~ what left that
 class EditMesh {
  public:
   /// A mesh without elements, in the default form.
@@ -158,7 +158,7 @@ class EditMesh {
   /// undone nor replayed.
   void set_recording(bool is_recording) noexcept { is_recording_ = is_recording; }
 
-  /// Turns the edge of h by one corner in the two faces on it; of two triangles, the other diagonal.
+  /// Turns the edge of h by one corner in its two faces; in two triangles, to the other diagonal.
   [[nodiscard]] EditCheck can_flip(HalfedgeId h) const;
   EditResult flip(HalfedgeId h);
 
