@@ -80,7 +80,7 @@ class Circulation : public std::ranges::view_base {
 
 /// True if `start` is the open end of a fan in the default form: nothing lies counter-clockwise of
 /// it, so that the edge it would share there has no half-edge leaving the vertex.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] inline bool is_open_start(const Mesh& mesh, HalfedgeId start) noexcept {
   return mesh.face(start).valid() && !mesh.opposite[mesh.prev(start)].valid();
 }
@@ -200,7 +200,7 @@ class IncidentFaceState {
 
 // Round a face by `next`, or round a hole: by `next` in the closed form, and in the default form by
 // the rotation that leads from one half-edge without opposite to the next.
-template <Topology Mesh, bool is_hole>
+template <FaceTopology Mesh, bool is_hole>
 class LoopState {
  public:
   LoopState() noexcept = default;
@@ -234,7 +234,7 @@ class FaceVertexState : public LoopState<Mesh, false> {
   }
 };
 
-template <Topology Mesh>
+template <FaceTopology Mesh>
 class AdjacentFaceState {
  public:
   AdjacentFaceState() noexcept = default;
@@ -287,13 +287,13 @@ template <Topology Mesh>
 
 /// The half-edges of the face of `h`, counter-clockwise from `h`; for a half-edge without a face,
 /// those of its hole.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] inline auto halfedges_from(const Mesh& mesh, HalfedgeId h) noexcept {
   return Circulation(detail::LoopState<Mesh, false>(mesh, h));
 }
 
 /// The half-edges of `f`, counter-clockwise from `first(f)`.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] inline auto halfedges(const Mesh& mesh, FaceId f) noexcept {
   return halfedges_from(mesh, mesh.first(f));
 }
@@ -305,7 +305,7 @@ template <Topology Mesh>
 }
 
 /// The faces across the edges of `f`, where there is one: a face once for each edge shared with it.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] inline auto adjacent_faces(const Mesh& mesh, FaceId f) noexcept {
   return Circulation(detail::AdjacentFaceState<Mesh>(mesh, mesh.first(f)));
 }
@@ -315,7 +315,7 @@ template <Topology Mesh>
 /// along both sides of a dangling edge. Linear over a whole loop.
 ///
 /// \pre opposite[h] is invalid (default form), or face(h) is (closed form).
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] inline auto boundary_loop(const Mesh& mesh, HalfedgeId h) noexcept {
   return Circulation(detail::LoopState<Mesh, true>(mesh, h));
 }
@@ -361,15 +361,15 @@ template <Topology Mesh>
 void neighbours(const Mesh&& mesh, VertexId v) = delete;
 template <Topology Mesh>
 void incident_faces(const Mesh&& mesh, VertexId v) = delete;
-template <Topology Mesh>
+template <FaceTopology Mesh>
 void halfedges_from(const Mesh&& mesh, HalfedgeId h) = delete;
-template <Topology Mesh>
+template <FaceTopology Mesh>
 void halfedges(const Mesh&& mesh, FaceId f) = delete;
 template <Topology Mesh>
 void vertices(const Mesh&& mesh, FaceId f) = delete;
-template <Topology Mesh>
+template <FaceTopology Mesh>
 void adjacent_faces(const Mesh&& mesh, FaceId f) = delete;
-template <Topology Mesh>
+template <FaceTopology Mesh>
 void boundary_loop(const Mesh&& mesh, HalfedgeId h) = delete;
 
 }  // namespace hedgerow

@@ -22,7 +22,7 @@
 namespace hedgerow {
 
 /// Sides of the face of `h`, or of its hole if it has no face. O(1) with a face, else O(sides).
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] Index degree(const Mesh& mesh, HalfedgeId h) noexcept {
   if (mesh.face(h).valid()) return mesh.degree(mesh.face(h));
   Index count = 0;
@@ -31,7 +31,7 @@ template <Topology Mesh>
 }
 
 /// Faces across the edges of `f`; missing ones are not counted.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] Index adjacent_face_count(const Mesh& mesh, FaceId f) noexcept {
   Index count = 0;
   for ([[maybe_unused]] const FaceId g : adjacent_faces(mesh, f)) ++count;
@@ -48,13 +48,13 @@ template <Topology Mesh>
 }
 
 /// Whether `h` is a boundary half-edge: without opposite (default form), without face (closed).
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] bool is_boundary(const Mesh& mesh, HalfedgeId h) noexcept {
   return !mesh.opposite[h].valid() || !mesh.face(h).valid();
 }
 
 /// Whether the edge of `h` lacks a face on one side or both.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] bool is_boundary_edge(const Mesh& mesh, HalfedgeId h) noexcept {
   return is_boundary(mesh, h) || is_boundary(mesh, mesh.opposite[h]);
 }
@@ -74,7 +74,7 @@ template <Topology Mesh>
 }
 
 /// Whether some edge of `f` is on the boundary.
-template <Topology Mesh>
+template <FaceTopology Mesh>
 [[nodiscard]] bool is_boundary(const Mesh& mesh, FaceId f) noexcept {
   for (const HalfedgeId h : halfedges(mesh, f)) {
     if (is_boundary_edge(mesh, h)) return true;

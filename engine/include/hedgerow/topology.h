@@ -35,25 +35,32 @@ using FanTable = std::span<const FanStart>;
   return {first, last};
 }
 
-/// What a kernel may ask of a mesh. Both views below satisfy it, so each kernel is written once.
+/// What can be asked of half-edges and faces, without a word about vertices.
 ///
-/// `next(h)` is the successor round the face, counter-clockwise; `prev(h)` its inverse; `target(h)`
-/// is `origin[next(h)]`; `opposite[h]` is invalid on the boundary of the default form; `face(h)` is
-/// invalid on a boundary half-edge of the closed form; `outgoing[v]` is invalid if v is isolated.
+/// `next(h)` is the successor round the face, counter-clockwise; `prev(h)` its inverse; `opposite[h]`
+/// is invalid on the boundary of the default form; `face(h)` is invalid on a boundary half-edge of
+/// the closed form.
 template <class T>
-concept Topology = requires(const T& mesh, HalfedgeId h, VertexId v, FaceId f) {
-  { mesh.vertex_count() } -> std::same_as<Index>;
+concept FaceTopology = requires(const T& mesh, HalfedgeId h, FaceId f) {
   { mesh.halfedge_count() } -> std::same_as<Index>;
   { mesh.face_count() } -> std::same_as<Index>;
-  { mesh.origin[h] } -> std::same_as<VertexId>;
   { mesh.opposite[h] } -> std::same_as<HalfedgeId>;
-  { mesh.outgoing[v] } -> std::same_as<HalfedgeId>;
   { mesh.next(h) } -> std::same_as<HalfedgeId>;
   { mesh.prev(h) } -> std::same_as<HalfedgeId>;
-  { mesh.target(h) } -> std::same_as<VertexId>;
   { mesh.face(h) } -> std::same_as<FaceId>;
   { mesh.first(f) } -> std::same_as<HalfedgeId>;
   { mesh.degree(f) } -> std::same_as<Index>;
+};
+
+/// What a kernel may ask of a mesh. Both views below satisfy it, so each kernel is written once.
+///
+/// `target(h)` is `origin[next(h)]`; `outgoing[v]` is invalid if v is isolated.
+template <class T>
+concept Topology = FaceTopology<T> && requires(const T& mesh, HalfedgeId h, VertexId v) {
+  { mesh.vertex_count() } -> std::same_as<Index>;
+  { mesh.origin[h] } -> std::same_as<VertexId>;
+  { mesh.outgoing[v] } -> std::same_as<HalfedgeId>;
+  { mesh.target(h) } -> std::same_as<VertexId>;
   { mesh.fans } -> std::convertible_to<FanTable>;
 };
 
