@@ -11,8 +11,9 @@ constexpr const char* kErrorNames[] = {
     "nonmanifold-edge",   "inconsistent-edge",  "nonmanifold-vertex", "isolated-vertex",
     "too-many-elements",  "bad-face-offsets",   "null-pointer",       "bad-stride",
     "count-mismatch",     "unsupported-policy", "scratch-too-small",  "already-closed",
-    "already-open",       "not-canonical",      "inconsistent-table", "not-triangles"};
-static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::not_triangles) + 1);
+    "already-open",       "not-canonical",      "inconsistent-table", "not-triangles",
+    "needs-padding",      "ray-library"};
+static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::ray_library) + 1);
 
 constexpr const char* kDefectNames[] = {
     "out-of-range",     "too-few-corners",   "repeated-vertex",    "duplicate-face",

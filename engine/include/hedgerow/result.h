@@ -30,6 +30,8 @@ enum class ErrorCode : std::uint8_t {
   not_canonical,       ///< the operation needs the half-edges of each face in one run (I8)
   inconsistent_table,  ///< element = row; value = the entry found; limit = what would be consistent
   not_triangles,       ///< element = smallest other face; value = its corner count; limit = 3
+  needs_padding,       ///< value = readable bytes; limit = bytes that a ray tracer reads
+  ray_library,         ///< value = the error code of the ray-tracing library
 };
 
 /// Stable lower-case word-with-dashes for messages and JSON, e.g. "index-out-of-range".

@@ -22,8 +22,20 @@ Execution Execution::callback(ParallelFor loop, void* context, int threads) noex
   return execution;
 }
 
-namespace par::detail {
+namespace par {
 
+struct LoneThread::Arena {
+  tbb::task_arena arena{1};
+};
+LoneThread::LoneThread() : arena_(std::make_unique<Arena>()) {}
+LoneThread::LoneThread(LoneThread&&) noexcept = default;
+LoneThread& LoneThread::operator=(LoneThread&&) noexcept = default;
+LoneThread::~LoneThread() = default;
+void LoneThread::enter(void (*function)(void*), void* user) {
+  arena_->arena.execute([=] { function(user); });
+}
+
+namespace detail {
 namespace {
 
 struct Loop {
@@ -65,5 +77,6 @@ void run(const Execution& execution, Index count, Index grain,
   }
 }
 
-}  // namespace par::detail
+}  // namespace detail
+}  // namespace par
 }  // namespace hedgerow

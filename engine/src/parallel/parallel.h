@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <utility>
 
 #include "hedgerow/execution.h"
@@ -17,6 +18,41 @@ namespace detail {
 void run(const Execution& execution, Index count, Index grain,
          void (*body)(void* user, Index begin, Index end), void* user);
 }  // namespace detail
+
+/// The calling thread by itself, for a library that would take every thread of the TBB arena that
+/// it is called in. Made once and kept: entering it allocates nothing.
+class LoneThread {
+ public:
+  LoneThread();
+  LoneThread(LoneThread&&) noexcept;
+  LoneThread& operator=(LoneThread&&) noexcept;
+  ~LoneThread();
+
+  /// Calls `function(user)` on the calling thread, in an arena where no other thread works.
+  void enter(void (*function)(void*), void* user);
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+/// Calls `function()` once, where TBB tasks that it starts run on the threads of `execution`: in
+/// its arena, or for serial and callback executions in that of `lone`.
+template <class Function>
+void call_inside(const Execution& execution, LoneThread& lone, const Function& function) {
+  const auto call = [](void* user) { (*static_cast<const Function*>(user))(); };
+  void* user = const_cast<Function*>(&function);
+  switch (execution.kind()) {
+    case Execution::Kind::named_arena:
+      execution.enter()(execution.context(), call, user);
+      return;
+    case Execution::Kind::current_arena:
+      call(user);
+      return;
+    default:
+      lone.enter(call, user);
+  }
+}
 
 /// Task size: the caller's if it asked for one, else the operation's own.
 [[nodiscard]] inline Index grain_of(const Execution& execution, Index own) noexcept {
