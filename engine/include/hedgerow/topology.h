@@ -37,9 +37,9 @@ using FanTable = std::span<const FanStart>;
 
 /// What can be asked of half-edges and faces, without a word about vertices.
 ///
-/// `next(h)` is the successor round the face, counter-clockwise; `prev(h)` its inverse; `opposite[h]`
-/// is invalid on the boundary of the default form; `face(h)` is invalid on a boundary half-edge of
-/// the closed form.
+/// `next(h)` is the successor round the face, counter-clockwise; `prev(h)` its inverse;
+/// `opposite[h]` is invalid on the boundary of the default form; `face(h)` is invalid on a boundary
+/// half-edge of the closed form.
 template <class T>
 concept FaceTopology = requires(const T& mesh, HalfedgeId h, FaceId f) {
   { mesh.halfedge_count() } -> std::same_as<Index>;

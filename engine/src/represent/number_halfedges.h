@@ -20,8 +20,9 @@ namespace hedgerow::detail {
 /// `Source` has record_count(), vertex_count(), face_count(); of a record exists(r), origin(r),
 /// opposite(r), next(r), face(r) (-1 = none); face_record(f), one of face f or -1; and
 /// for_each_start(visit), which visits records where rotations should start if it makes no
-/// difference. Faces are numbered in order, each from its record on, then what is left in cycles:
-/// those opposite to faces in the order of these, then those of dangling edges alone.
+/// difference. Records that have canonical numbers keep them. Else faces are numbered in order,
+/// each from its record on, then what is left in cycles: those opposite to faces in the order of
+/// these, then those of dangling edges alone.
 template <class Source>
 class HalfedgeMaker {
  public:
@@ -32,7 +33,11 @@ class HalfedgeMaker {
   ///            the cycle of that face's record, value = the face, limit = -1.
   Result<NumberedMesh> run() {
     if (Result<void> numbered = number_faces(); !numbered) return fail(numbered.error());
-    number_loops();
+    if (is_canonical()) {
+      keep_numbers();
+    } else {
+      number_loops();
+    }
     if (Result<void> numbered = check_faces(); !numbered) return fail(numbered.error());
     fill_columns();
     find_fans();
@@ -79,6 +84,24 @@ class HalfedgeMaker {
     }
     first_[at(source_.face_count())] = count();
     return {};
+  }
+
+  // Whether the faces have the first numbers in the order of their corners, and all records exist.
+  [[nodiscard]] bool is_canonical() const {
+    for (Index h = 0; h < count(); ++h) {
+      if (record_[at(h)] != h) return false;
+    }
+    for (Index r = count(); r < source_.record_count(); ++r) {
+      if (!source_.exists(r) || source_.face(r) != kInvalidIndex) return false;
+    }
+    return true;
+  }
+  void keep_numbers() {
+    for (Index r = count(); r < source_.record_count(); ++r) {
+      form_ = Form::closed;
+      halfedge_[at(r)] = HalfedgeId(r);
+      record_.push_back(r);
+    }
   }
 
   void number_loops() {
