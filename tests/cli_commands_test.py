@@ -247,6 +247,28 @@ class Repair(ProgramTest):
         self.done("repair", mesh, self.path("b.obj"), "--strict", "--policy",
                   "isolated-vertex=skip")
 
+    def test_repair_merges_vertices_within_a_distance_and_drops_faces_that_come_twice(self):
+        mesh = self.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.001 0 0\nv 0 1.001 0\nv 1 1 0\n"
+                         "f 1 2 3\nf 4 6 5\nf 2 3 1\n")
+        maps_path = self.path("maps.json")
+        report = self.json("repair", mesh, self.path("b.obj"), "--weld", "0.01",
+                           "--drop-duplicates", "--maps", maps_path)
+        self.assertEqual(report["vertices_merged"], 2)
+        self.assertEqual(report["after"]["vertices"], 4)
+        self.assertEqual(report["faces_dropped"], 1)
+        self.assertEqual(report["policies"]["duplicate-face"], "skip")
+        with open(maps_path, encoding="utf-8") as file:
+            maps = json.load(file)
+        self.assertEqual(maps["vertices_new_to_old"], [0, 1, 2, 5])
+        self.assertEqual(maps["faces_new_to_old"], [0, 1])
+        found = self.json("inspect", self.path("b.obj"))
+        self.assertEqual((found["edges"], found["boundary_edges"]), (5, 4))
+        # Nothing near: nothing merged.
+        report = self.json("repair", mesh, self.path("b.obj"), "--weld", "0")
+        self.assertEqual(report["vertices_merged"], 0)
+        for wrong in ("-1", "nan", "far"):
+            self.fails(2, "repair", mesh, self.path("b.obj"), "--weld", wrong)
+
     def test_orient_turns_the_face_that_disagrees(self):
         mesh = self.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                                   "f 1 2 3\nf 1 2 4\nf 2 4 3\nf 3 4 1\n")

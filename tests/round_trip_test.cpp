@@ -1,31 +1,15 @@
 // Every representation there and back, on as many small meshes as the preset has time for.
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "hedgerow/build.h"
+#include "support/plain_build.h"
 #include "support/random_faces.h"
 #include "support/round_trips.h"
 
 namespace hedgerow::test {
 namespace {
-
-Result<BuildOutput> build_list(const PlainFaces& list) {
-  std::vector<Index> corners;
-  std::vector<Index> offsets = {0};
-  bool is_triangles = true;
-  for (const Corners& face : list.faces) {
-    for (const std::int64_t v : face) corners.push_back(static_cast<Index>(v));
-    offsets.push_back(static_cast<Index>(corners.size()));
-    is_triangles &= face.size() == 3;
-  }
-  const std::span<const Index> all(corners);
-  return build(is_triangles ? FaceList::triangles<Index>(all, list.vertex_count)
-                            : FaceList::polygons<Index>(all, offsets, list.vertex_count),
-               {}, Execution::serial());
-}
 
 /// Every tenth has faces with any vertices at all, so that a third is not manifold.
 PlainFaces list_of(std::uint64_t seed) {
@@ -41,7 +25,7 @@ TEST_P(RoundTrips, LoseNothingOfRandomMeshes) {
   const std::uint64_t first = static_cast<std::uint64_t>(GetParam()) * kCount;
   std::uint64_t nonmanifold = 0;
   for (std::uint64_t seed = first; seed < first + kCount; ++seed) {
-    const auto built = build_list(list_of(seed));
+    const auto built = build_plain(list_of(seed));
     ASSERT_TRUE(built) << "seed " << seed;
     nonmanifold += std::ranges::any_of(built->defects, [](const Defect& defect) {
       return defect.kind == DefectKind::nonmanifold_edge ||

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "failure.h"
+#include "hedgerow/weld.h"
 #include "mesh_file.h"
 #include "orient_faces.h"
 #include "table.h"
@@ -20,12 +21,15 @@ struct Arguments {
   std::string output;
   std::string maps;
   bool orient = false;
+  bool drop_duplicates = false;
+  std::optional<double> weld;
 };
 
 /// A face list has no room for a cut edge: it would be joined again when the file is read. So where
 /// nothing else was asked for, `repair` splits.
-Policies repair_policies(const Options& options) {
+Policies repair_policies(const Options& options, bool drop_duplicates) {
   Policies policies = options.policies;
+  if (drop_duplicates) policies[DefectKind::duplicate_face] = Action::skip;
   for (const DefectKind kind : {DefectKind::nonmanifold_edge, DefectKind::inconsistent_edge,
                                 DefectKind::nonmanifold_vertex}) {
     if (!options.is_policy_given[static_cast<std::size_t>(kind)]) policies[kind] = Action::split;
@@ -33,10 +37,13 @@ Policies repair_policies(const Options& options) {
   return policies;
 }
 
-Json map_json(std::span<const Index> new_to_old, Index count) {
-  Json map = Json::array();
+/// Numbers as the first step left them, in the numbers before it; an empty map changes none.
+std::vector<Index> composed(std::span<const Index> second, std::span<const Index> first,
+                            Index count) {
+  std::vector<Index> map;
   for (Index i = 0; i < count; ++i) {
-    map.push_back(new_to_old.empty() ? i : new_to_old[static_cast<std::size_t>(i)]);
+    const Index between = second.empty() ? i : second[static_cast<std::size_t>(i)];
+    map.push_back(first.empty() ? between : first[static_cast<std::size_t>(between)]);
   }
   return map;
 }
@@ -53,20 +60,21 @@ struct Outcome {
   /// New vertices that repeat the position of an earlier one, and old ones that none came from.
   std::int64_t vertices_split = 0;
   std::int64_t vertices_dropped = 0;
+  std::int64_t vertices_merged = 0;
   std::optional<OrientedFaces> oriented;
 };
 
 void count_vertices(const BuildOutput& output, Outcome& outcome) {
   const std::span<const Index> new_to_old = output.vertices_new_to_old.span();
   if (new_to_old.empty()) return;
-  std::vector<bool> is_used(static_cast<std::size_t>(outcome.vertices_before), false);
+  const std::int64_t welded_count = outcome.vertices_before - outcome.vertices_merged;
+  std::vector<bool> is_used(static_cast<std::size_t>(welded_count), false);
   for (const Index old : new_to_old) {
     const auto v = static_cast<std::size_t>(old);
     outcome.vertices_split += is_used[v] ? 1 : 0;
     is_used[v] = true;
   }
-  outcome.vertices_dropped =
-      outcome.vertices_before + outcome.vertices_split - outcome.vertices_after;
+  outcome.vertices_dropped = welded_count + outcome.vertices_split - outcome.vertices_after;
 }
 
 std::string outcome_text(const Run& run, const Arguments& arguments, const Outcome& outcome) {
@@ -81,9 +89,10 @@ std::string outcome_text(const Run& run, const Arguments& arguments, const Outco
     is_any_cut = is_any_cut || outcome.policies[kind] == Action::cut;
   }
   Table counts({{"", Table::Align::left}, {"before"}, {"after"}, {"change", Table::Align::left}});
-  counts.add({"vertices", grouped(outcome.vertices_before), grouped(outcome.vertices_after),
-              fmt::format("{} added by splitting, {} dropped", grouped(outcome.vertices_split),
-                          grouped(outcome.vertices_dropped))});
+  counts.add(
+      {"vertices", grouped(outcome.vertices_before), grouped(outcome.vertices_after),
+       fmt::format("{} merged, {} added by splitting, {} dropped", grouped(outcome.vertices_merged),
+                   grouped(outcome.vertices_split), grouped(outcome.vertices_dropped))});
   counts.add({"faces", grouped(outcome.faces_before), grouped(outcome.faces_after),
               fmt::format("{} dropped", grouped(outcome.faces_before - outcome.faces_after))});
   std::string out = kinds.empty() ? "no defects\n" : kinds.text(run.colour());
@@ -118,6 +127,7 @@ Json outcome_json(const Arguments& arguments, const Outcome& outcome) {
   json["after"] = {{"vertices", outcome.vertices_after},
                    {"faces", outcome.faces_after},
                    {"defects", std::move(after)}};
+  json["vertices_merged"] = outcome.vertices_merged;
   json["vertices_split"] = outcome.vertices_split;
   json["vertices_dropped"] = outcome.vertices_dropped;
   json["faces_dropped"] = outcome.faces_before - outcome.faces_after;
@@ -125,22 +135,35 @@ Json outcome_json(const Arguments& arguments, const Outcome& outcome) {
   return json;
 }
 
-void write_maps(const Arguments& arguments, const BuildOutput& output) {
+void write_maps(const Arguments& arguments, const BuildOutput& output,
+                std::span<const Index> welded_to_old) {
   Json maps;
   maps["vertices_new_to_old"] =
-      map_json(output.vertices_new_to_old.span(), output.mesh.vertex_count());
-  maps["faces_new_to_old"] = map_json(output.faces_new_to_old.span(), output.mesh.face_count());
+      composed(output.vertices_new_to_old.span(), welded_to_old, output.mesh.vertex_count());
+  maps["faces_new_to_old"] = composed(output.faces_new_to_old.span(), {}, output.mesh.face_count());
   write_text(arguments.maps, maps.dump() + '\n');
+}
+
+/// Merges vertices in place, if that was asked for. Returns the map to their old numbers.
+Buffer<Index> weld_vertices(const Arguments& arguments, Soup& soup) {
+  if (!arguments.weld) return {};
+  Result<Weld> weld = find_weld(soup.positions(), *arguments.weld);
+  if (!weld) throw describe(weld.error(), arguments.input);
+  soup = welded(soup, *weld);
+  return std::move(weld->new_to_old);
 }
 
 ExitStatus repair(Run& run, const Arguments& arguments) {
   check_output_path(arguments.output);
   Outcome outcome;
-  outcome.policies = repair_policies(run.options());
+  outcome.policies = repair_policies(run.options(), arguments.drop_duplicates);
   run.progress().begin(4);
   run.progress().step("reading");
   MeshFile file = read_mesh(run, arguments.input);
   run.progress().step("repairing");
+  outcome.vertices_before = file.soup.vertex_count();
+  const Buffer<Index> welded_to_old = weld_vertices(arguments, file.soup);
+  outcome.vertices_merged = outcome.vertices_before - file.soup.vertex_count();
   if (arguments.orient) {
     outcome.oriented = orient_faces(run, arguments.input, file.soup, outcome.policies);
   }
@@ -150,12 +173,11 @@ ExitStatus repair(Run& run, const Arguments& arguments) {
   const BuiltMesh again = build_mesh(run, arguments.output, soup, Policies{});
   enforce_strict(run, arguments.output, again.output);
   run.progress().step("writing");
-  if (!arguments.maps.empty()) write_maps(arguments, built.output);
+  if (!arguments.maps.empty()) write_maps(arguments, built.output, welded_to_old.span());
   write_mesh(run, arguments.output, soup);
 
   outcome.before = built.output.stats;
   outcome.after = again.output.stats;
-  outcome.vertices_before = file.soup.vertex_count();
   outcome.vertices_after = soup.vertex_count();
   outcome.faces_before = file.soup.face_count();
   outcome.faces_after = soup.face_count();
@@ -182,8 +204,22 @@ void add_repair(Program& program) {
       [arguments](Run& run) { return repair(run, *arguments); });
   command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
   command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
+  command
+      .add_option("--weld", arguments->weld,
+                  "First merge vertices within this distance of one\n"
+                  "another, directly or by way of others; 0: those at\n"
+                  "the same place")
+      ->check([](const std::string& text) {
+        double distance = 0;
+        const bool is_good = CLI::detail::lexical_cast(text, distance) && distance >= 0;
+        return is_good ? std::string() : "a distance is a number, 0 or more, not " + text;
+      })
+      ->type_name("DISTANCE");
+  command.add_flag("--drop-duplicates", arguments->drop_duplicates,
+                   "Keep the first of the faces with the same vertices:\n"
+                   "as --policy duplicate-face=skip");
   command.add_flag("--orient", arguments->orient,
-                   "First turn faces over so that those of each patch\n"
+                   "Then turn faces over so that those of each patch\n"
                    "agree. A patch with no orientation, as a Moebius\n"
                    "band, is reported with a cycle of faces as proof");
   command
