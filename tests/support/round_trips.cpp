@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "hedgerow/adjacency.h"
 #include "hedgerow/boundary.h"
 #include "hedgerow/corner_table.h"
 #include "hedgerow/dcel.h"
@@ -83,6 +84,17 @@ std::string check_records(const Connectivity& mesh) {
   return fault;
 }
 
+// Vertices come back as orbits, numbered as they are met; and those to the last byte.
+std::string check_adjacency(const Connectivity& mesh) {
+  const auto numbered = build_connectivity(build_adjacency(mesh, kSerial));
+  if (!numbered) return std::string("adjacency goes not back: ") + name(numbered.error().code);
+  if (!is_same(numbered->opposite(), mesh.opposite())) return "adjacency comes back changed";
+  return check(
+      "adjacency", *numbered, true, ErrorCode{},
+      [](const Connectivity& m) -> Result<Adjacency> { return build_adjacency(m, kSerial); },
+      [](const Adjacency& a) { return build_connectivity(a); });
+}
+
 std::string check_winged_edges(const Connectivity& mesh, bool has_boundary) {
   // Without boundary half-edges the forms do not differ, and the default one comes back.
   if (mesh.form() == Form::closed && !has_boundary) return "";
@@ -117,6 +129,7 @@ std::string find_lossy_round_trip(const Connectivity& mesh) {
   std::string fault;
   for (const Connectivity* form : {&mesh, &*closed}) {
     if (fault.empty()) fault = check_records(*form);
+    if (fault.empty()) fault = check_adjacency(*form);
     if (fault.empty()) fault = check_winged_edges(*form, has_boundary);
     if (!fault.empty() && form == &*closed) fault += " (closed form)";
   }

@@ -30,9 +30,9 @@ struct Weld {
 /// like themselves only.
 ///
 /// Pre        distance >= 0, in the unit of the positions.
-/// Complexity O(n log n), whatever the distance and however many vertices lie at one place: cells of
-///            half the distance are joined as they are, and pairs of cells are halved until their
-///            boxes tell. On the calling thread. Throws std::bad_alloc.
+/// Complexity O(n log n), whatever the distance and however many vertices lie at one place: cells
+///            of half the distance are joined as they are, and pairs of cells are halved until
+///            their boxes tell. On the calling thread. Throws std::bad_alloc.
 /// Errors     null_pointer, bad_stride, too_many_elements.
 [[nodiscard]] Result<Weld> find_weld(Positions positions, double distance);
 
