@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "baselines/bandwidth.h"
+#include "google.h"
 #include "runner.h"
 
 namespace hedgerow::bench {
@@ -44,11 +45,8 @@ void add_bandwidth(const Plan& plan) {
     for (const int threads : plan.threads) {
       const std::string name = std::string("bandwidth/") + baselines::name(kernel) + "/" + size +
                                "/" + std::to_string(threads);
-      auto* registered = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-        measure(state, kernel, array_bytes, threads);
-      });
-      registered->UseManualTime()->Unit(benchmark::kMillisecond);
-      if (plan.is_smoke) registered->Iterations(1);
+      add_extra(name,
+                [=](benchmark::State& state) { measure(state, kernel, array_bytes, threads); });
     }
   }
 }

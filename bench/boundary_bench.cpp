@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "hedgerow/boundary.h"
 #include "runner.h"
@@ -28,6 +29,20 @@ bool is_same(const Connectivity& a, const Connectivity& b) {
          std::ranges::equal(a.outgoing(), b.outgoing());
 }
 
+std::string compare_closed(const Dataset& data, const Connectivity& closed,
+                           const Connectivity& serially_closed) {
+  const Result<Connectivity> opened = open_boundary(closed, Execution::serial());
+  if (!opened || !is_same(*opened, data.mesh)) {
+    return "opening the closed mesh gives another mesh; not measured";
+  }
+  return is_same(closed, serially_closed) ? "" : "another mesh than the serial run's; not measured";
+}
+
+std::string compare_opened(const Dataset& data, const Connectivity& opened) {
+  return is_same(opened, data.mesh) ? ""
+                                    : "another mesh than the one that was closed; not measured";
+}
+
 Work prepare(const Dataset& data, const Execution& execution, bool is_closing) {
   Work work;
   Result<Connectivity> closed = close_boundary(data.mesh, Execution::serial());
@@ -43,20 +58,16 @@ Work prepare(const Dataset& data, const Execution& execution, bool is_closing) {
     if (result) output->emplace(std::move(*result));
   };
   work.cleanup = [output] { output->reset(); };
-  work.run();
-  if (!output->has_value()) {
-    work.error = "the operation failed; not measured";
-  } else if (is_closing) {
-    const Result<Connectivity> opened = open_boundary(**output, Execution::serial());
-    if (!opened || !is_same(*opened, data.mesh)) {
-      work.error = "opening the closed mesh gives another mesh; not measured";
-    } else if (!is_same(**output, *closed_mesh)) {
-      work.error = "another mesh than the serial run's; not measured";
-    }
-  } else if (!is_same(**output, data.mesh)) {
-    work.error = "another mesh than the one that was closed; not measured";
-  }
-  work.cleanup();
+  work.check = [&data, is_closing, closed_mesh, output]() -> std::string {
+    if (!output->has_value()) return "the operation failed; not measured";
+    return is_closing ? compare_closed(data, **output, *closed_mesh)
+                      : compare_opened(data, **output);
+  };
+  work.digest = [output] { return output->has_value() ? digest_of(**output) : 0; };
+  work.notes = [output]() -> Notes {
+    if (!output->has_value()) return {};
+    return {{"bytes_per_halfedge", bytes_per_halfedge(**output)}};
+  };
   return work;
 }
 
@@ -65,16 +76,16 @@ Work prepare(const Dataset& data, const Execution& execution, bool is_closing) {
 void add_boundary(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      add(plan, {"close_boundary", key, threads, "",
-                 [](const Dataset& data, const Execution& execution) {
-                   return prepare(data, execution, true);
-                 },
-                 close_traffic, Mix::copy});
-      add(plan, {"open_boundary", key, threads, "",
-                 [](const Dataset& data, const Execution& execution) {
-                   return prepare(data, execution, false);
-                 },
-                 open_traffic, Mix::copy});
+      add({"close_boundary", key, threads, "",
+           [](const Dataset& data, const Execution& execution) {
+             return prepare(data, execution, true);
+           },
+           close_traffic, Mix::copy});
+      add({"open_boundary", key, threads, "",
+           [](const Dataset& data, const Execution& execution) {
+             return prepare(data, execution, false);
+           },
+           open_traffic, Mix::copy});
     }
   }
 }

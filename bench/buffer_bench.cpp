@@ -28,10 +28,11 @@ Work prepare(const Dataset& data, const Execution&) {
     fill(**column);
   };
   work.cleanup = [column] { column->reset(); };
-  work.run();
-  const Index last = (**column)[count - 1];
-  if (last != static_cast<Index>(count - 1) * kStep) work.error = "wrong values; not measured";
-  work.cleanup();
+  work.check = [count, column] {
+    const Index last = (**column)[count - 1];
+    return last == static_cast<Index>(count - 1) * kStep ? "" : "wrong values; not measured";
+  };
+  work.digest = [column] { return digest_of(**column); };
   return work;
 }
 
@@ -42,8 +43,8 @@ Traffic traffic(const Dataset& data) { return {0, kIndexBytes * counts_of(data).
 void add_buffer(const Plan& plan) {
   if (plan.large.empty()) return;
   const DatasetKey& key = plan.large.front();
-  add(plan, {"fill_column", key, 1, "", prepare<Buffer<Index>>, traffic, Mix::copy});
-  add(plan, {"fill_column", key, 1, "vector", prepare<std::vector<Index>>, traffic, Mix::copy});
+  add({"fill_column", key, 1, "", prepare<Buffer<Index>>, traffic, Mix::copy});
+  add({"fill_column", key, 1, "vector", prepare<std::vector<Index>>, traffic, Mix::copy});
 }
 
 }  // namespace hedgerow::bench

@@ -30,17 +30,19 @@ Work prepare_engine(const Dataset& data, const Execution& execution, BuildStrate
     if (built) output->emplace(std::move(*built));
   };
   work.cleanup = [output] { output->reset(); };
-  work.run();
-  if (!output->has_value()) {
-    work.error = "build failed; not measured";
-  } else if (!std::ranges::equal((*output)->mesh.opposite(), data.reference.opposite)) {
-    work.error = "wrong opposites; not measured";
-  } else {
+  work.check = [&data, output]() -> std::string {
+    if (!output->has_value()) return "build failed; not measured";
+    const bool is_right = std::ranges::equal((*output)->mesh.opposite(), data.reference().opposite);
+    return is_right ? "" : "wrong opposites; not measured";
+  };
+  work.digest = [output] { return output->has_value() ? digest_of((*output)->mesh) : 0; };
+  work.notes = [output]() -> Notes {
+    if (!output->has_value()) return {};
     const BuildStats& stats = (*output)->stats;
-    work.notes["is_window"] = stats.strategy == BuildStrategy::window ? 1 : 0;
-    work.notes["scans_per_face"] = static_cast<double>(stats.scan_per_mille) / 1000;
-  }
-  work.cleanup();
+    return {{"is_window", stats.strategy == BuildStrategy::window ? 1 : 0},
+            {"scans_per_face", static_cast<double>(stats.scan_per_mille) / 1000},
+            {"bytes_per_halfedge", bytes_per_halfedge((*output)->mesh)}};
+  };
   return work;
 }
 
@@ -49,13 +51,12 @@ Work prepare_peer(const Dataset& data, const Peer& peer) {
   Work work;
   work.run = [&data, &peer, mesh] { *mesh = peer.build(data.faces(), data.positions()); };
   work.cleanup = [mesh] { mesh->reset(); };
-  work.run();
-  if (!*mesh) {
-    work.error = "refuses a face of this mesh; not measured";
-  } else if ((*mesh)->opposite() != data.reference.opposite) {
-    work.error = "other opposites than the reference; not measured";
-  }
-  work.cleanup();
+  work.check = [&data, mesh]() -> std::string {
+    if (!*mesh) return "refuses a face of this mesh; not measured";
+    const bool is_right = (*mesh)->opposite() == data.reference().opposite;
+    return is_right ? "" : "other opposites than the reference; not measured";
+  };
+  work.digest = [mesh] { return *mesh ? digest_of((*mesh)->opposite()) : 0; };
   return work;
 }
 
@@ -63,7 +64,7 @@ Work prepare_peer(const Dataset& data, const Peer& peer) {
 /// The vertex across each edge, as meshoptimizer gives it, from our own opposites.
 bool agrees(const std::vector<std::uint32_t>& adjacency, const Dataset& data) {
   const auto origin = data.mesh.origin();
-  const auto& opposite = data.reference.opposite;
+  const auto& opposite = data.reference().opposite;
   for (std::size_t h = 0; h < opposite.size(); ++h) {
     if (opposite[h] == kInvalidIndex) continue;
     const auto g = static_cast<std::size_t>(opposite[h]);
@@ -86,42 +87,43 @@ Work prepare_adjacency(const Dataset& data) {
     fill_adjacency_buffer(data.faces(), data.positions(), *adjacency);
   };
   work.cleanup = [adjacency] { *adjacency = {}; };
-  work.run();
-  if (!agrees(*adjacency, data))
-    work.error = "other neighbours than the reference (it joins equal positions); not measured";
-  work.cleanup();
+  work.check = [&data, adjacency]() -> std::string {
+    if (agrees(*adjacency, data)) return "";
+    return "other neighbours than the reference (it joins equal positions); not measured";
+  };
+  work.digest = [adjacency] { return digest_of(*adjacency); };
   return work;
 }
 
 #endif
 
-void add_adjacency([[maybe_unused]] const Plan& plan, [[maybe_unused]] const DatasetKey& key) {
+void add_adjacency([[maybe_unused]] const DatasetKey& key) {
 #if defined(HEDGEROW_BENCH_MESHOPTIMIZER)
   // The library takes 32-bit indices; wider ones would have to be copied first.
   if constexpr (sizeof(Index) == sizeof(std::uint32_t)) {
-    add(plan, {"build", key, 1, "meshoptimizer",
-               [](const Dataset& data, const Execution&) { return prepare_adjacency(data); },
-               traffic, Mix::copy});
+    add({"build", key, 1, "meshoptimizer",
+         [](const Dataset& data, const Execution&) { return prepare_adjacency(data); }, traffic,
+         Mix::copy});
   }
 #endif
 }
 
-void add_engine(const Plan& plan, const char* operation, const DatasetKey& key, int threads,
-                BuildStrategy strategy, const std::string& variant) {
-  add(plan, {operation, key, threads, variant,
-             [strategy](const Dataset& data, const Execution& execution) {
-               return prepare_engine(data, execution, strategy);
-             },
-             traffic, Mix::copy});
+void add_engine(const char* operation, const DatasetKey& key, int threads, BuildStrategy strategy,
+                const std::string& variant) {
+  add({operation, key, threads, variant,
+       [strategy](const Dataset& data, const Execution& execution) {
+         return prepare_engine(data, execution, strategy);
+       },
+       traffic, Mix::copy});
 }
 
-void add_peers(const Plan& plan, const DatasetKey& key) {
+void add_peers(const DatasetKey& key) {
   for (const Peer& peer : peers()) {
-    add(plan, {"build", key, 1, peer.name,
-               [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
-               traffic, Mix::copy});
+    add({"build", key, 1, peer.name,
+         [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
+         traffic, Mix::copy});
   }
-  add_adjacency(plan, key);
+  add_adjacency(key);
 }
 
 }  // namespace
@@ -129,23 +131,23 @@ void add_peers(const Plan& plan, const DatasetKey& key) {
 void add_build(const Plan& plan) {
   for (const DatasetKey& key : plan.all) {
     for (const int threads : plan.threads) {
-      add_engine(plan, "build", key, threads, BuildStrategy::automatic, "");
+      add_engine("build", key, threads, BuildStrategy::automatic, "");
     }
-    if (plan.has_peers(key)) add_peers(plan, key);
+    if (plan.has_peers(key)) add_peers(key);
   }
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
       // On shuffled faces every block of vertices would scan all of them.
       if (key.shape != "shuffled") {
-        add_engine(plan, "build", key, threads, BuildStrategy::window, "window");
+        add_engine("build", key, threads, BuildStrategy::window, "window");
       }
-      add_engine(plan, "build", key, threads, BuildStrategy::partition, "partition");
+      add_engine("build", key, threads, BuildStrategy::partition, "partition");
     }
   }
   for (const DatasetKey& key : plan.disordered) {
-    add_engine(plan, "strategy", key, 1, BuildStrategy::automatic, "");
-    add_engine(plan, "strategy", key, 1, BuildStrategy::window, "window");
-    add_engine(plan, "strategy", key, 1, BuildStrategy::partition, "partition");
+    add_engine("strategy", key, 1, BuildStrategy::automatic, "");
+    add_engine("strategy", key, 1, BuildStrategy::window, "window");
+    add_engine("strategy", key, 1, BuildStrategy::partition, "partition");
   }
 }
 

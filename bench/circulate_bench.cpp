@@ -95,7 +95,7 @@ std::string compare_outgoing(const std::vector<std::uint32_t>& sums, const Datas
 }
 
 std::string compare(const std::vector<std::uint32_t>& sums, const Dataset& data) {
-  std::vector<std::uint32_t> expected = data.reference.one_ring_sums;
+  std::vector<std::uint32_t> expected = data.reference().one_ring_sums;
   for (const Index v : vertices_with_several_fans(data.mesh)) {
     expected[static_cast<std::size_t>(v)] = sums[static_cast<std::size_t>(v)];
   }
@@ -115,8 +115,8 @@ Work prepare_engine(const Dataset& data, const Execution& execution, const Sum& 
   work.run = [&mesh, stored = std::move(stored), execution, sum_of, sums] {
     mesh.visit([&](const auto& view) { gather_sums(view, execution, sum_of, *sums); });
   };
-  work.run();
-  work.error = compare_sums(*sums, data);
+  work.check = [&data, sums, compare_sums] { return compare_sums(*sums, data); };
+  work.digest = [sums] { return digest_of(*sums); };
   return work;
 }
 
@@ -131,8 +131,8 @@ Work prepare_pass(const Dataset& data, const Execution&) {
       });
     });
   };
-  work.run();
-  work.error = compare(*sums, data);
+  work.check = [&data, sums] { return compare(*sums, data); };
+  work.digest = [sums] { return digest_of(*sums); };
   return work;
 }
 
@@ -146,8 +146,8 @@ Work prepare_peer(const Dataset& data, const Peer& peer) {
   auto sums = std::make_shared<std::vector<std::uint32_t>>(
       static_cast<std::size_t>(data.mesh.vertex_count()));
   work.run = [mesh, sums] { mesh->fill_one_ring_sums(*sums); };
-  work.run();
-  work.error = compare(*sums, data);
+  work.check = [&data, sums] { return compare(*sums, data); };
+  work.digest = [sums] { return digest_of(*sums); };
   return work;
 }
 
@@ -169,18 +169,17 @@ void add_engine(const Plan& plan, const char* operation, const DatasetKey& key, 
                 bool is_stored, const std::string& variant) {
   const bool is_walk = operation == std::string_view("circulator");
   for (const int threads : plan.threads) {
-    add(plan, {operation, key, threads, variant,
-               [=](const Dataset& data, const Execution& execution) {
-                 return prepare_engine(data, execution, sum_of,
-                                       is_stored ? stored_form(data) : nullptr,
-                                       is_walk ? compare_outgoing : compare);
-               },
-               [=](const Dataset& data) {
-                 Traffic traffic = is_walk ? outgoing_traffic(data) : ring_traffic(data);
-                 if (is_stored) traffic.read += kIndexBytes * counts_of(data).halfedges;
-                 return traffic;
-               },
-               Mix::read});
+    add({operation, key, threads, variant,
+         [=](const Dataset& data, const Execution& execution) {
+           return prepare_engine(data, execution, sum_of, is_stored ? stored_form(data) : nullptr,
+                                 is_walk ? compare_outgoing : compare);
+         },
+         [=](const Dataset& data) {
+           Traffic traffic = is_walk ? outgoing_traffic(data) : ring_traffic(data);
+           if (is_stored) traffic.read += kIndexBytes * counts_of(data).halfedges;
+           return traffic;
+         },
+         Mix::read});
   }
 }
 
@@ -191,8 +190,7 @@ void add_circulate(const Plan& plan) {
     add_engine(plan, "one_ring", key, ByRange{}, false, "");
     if (!plan.has_peers(key)) continue;
     for (const Peer& peer : peers()) {
-      add(plan,
-          {"one_ring", key, 1, peer.name,
+      add({"one_ring", key, 1, peer.name,
            [&peer](const Dataset& data, const Execution&) { return prepare_peer(data, peer); },
            ring_traffic, Mix::read});
     }
@@ -200,7 +198,7 @@ void add_circulate(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     add_engine(plan, "one_ring", key, ByHand{}, false, "by-hand");
     add_engine(plan, "one_ring", key, ByRange{}, true, "stored");
-    add(plan, {"one_ring", key, 1, "pass", prepare_pass, ring_traffic, Mix::read});
+    add({"one_ring", key, 1, "pass", prepare_pass, ring_traffic, Mix::read});
     add_engine(plan, "circulator", key, ByOutgoing{}, false, "");
     add_engine(plan, "circulator", key, ByOutgoing{}, true, "stored");
   }

@@ -50,8 +50,9 @@ int count_cases(const std::string& filter) {
     forget_other_datasets(benchmark.data);
     const Dataset& data = dataset(benchmark.data);
     const Work work = benchmark.prepare(data, execution_with(benchmark.threads));
-    if (!work.error.empty()) {
-      std::cerr << benchmark.name() << ": " << work.error << "\n";
+    const Answer answer = first_answer(work, true);
+    if (!answer.error.empty()) {
+      std::cerr << benchmark.name() << ": " << answer.error << "\n";
       ++error_count;
       continue;
     }

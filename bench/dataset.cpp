@@ -74,6 +74,21 @@ std::string DatasetKey::size() const {
   return std::to_string(count);
 }
 
+std::string DatasetKey::working_set() const {
+  // Connectivity, positions and one normal a vertex; half as many vertices as triangles.
+  constexpr std::int64_t kTriangleBytes = 26 + 6 + 6;
+  const std::int64_t bytes = triangle_count * kTriangleBytes;
+  if (bytes <= std::int64_t{32} << 10U) return "L1";
+  if (bytes <= std::int64_t{1} << 20U) return "L2";
+  if (bytes <= std::int64_t{64} << 20U) return "LLC";
+  return "DRAM";
+}
+
+const Reference& Dataset::reference() const {
+  if (!reference_) reference_ = make_reference(*this);
+  return *reference_;
+}
+
 Counts counts_of(const Dataset& data) noexcept {
   return {static_cast<double>(data.mesh.halfedge_count()),
           static_cast<double>(data.mesh.vertex_count()),
@@ -89,7 +104,6 @@ const Dataset& dataset(const DatasetKey& key) {
   data->key = key;
   data->soup = make_soup(key);
   data->mesh = build_kept(data->soup);
-  data->reference = make_reference(*data);
   made.push_back(std::move(data));
   return *made.back();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct DatasetKey {
 
   /// "4M", "10k", "871k"
   [[nodiscard]] std::string size() const;
+  /// "L1", "L2", "LLC" or "DRAM": the smallest of these that holds connectivity, positions and one
+  /// normal a vertex, on a nominal processor with 32 KiB, 1 MiB and 64 MiB. So it is the same word
+  /// on every machine.
+  [[nodiscard]] std::string working_set() const;
   /// The shape, but for a dataset that is only measured to be compared with another one, in turns:
   /// then that one's.
   [[nodiscard]] std::string family() const;
@@ -36,15 +41,20 @@ struct Reference {
   Index components = 0;
 };
 
-/// A mesh to measure on, with what is needed to check the answers.
+/// A mesh to measure on, with what is needed to check the answers. For one thread at a time.
 struct Dataset {
   DatasetKey key;
   Soup soup;  ///< only the faces that the engine keeps, in the form that every library takes
   Connectivity mesh;
-  Reference reference;
+
+  /// Made when it is first asked for.
+  [[nodiscard]] const Reference& reference() const;
 
   [[nodiscard]] FaceList faces() const noexcept { return soup.face_list(); }
   [[nodiscard]] Positions positions() const noexcept { return soup.positions(); }
+
+ private:
+  mutable std::optional<Reference> reference_;
 };
 
 /// Element counts, to compute bytes with.

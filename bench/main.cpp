@@ -1,37 +1,40 @@
-#include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <exception>
 #include <iostream>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <benchmark/benchmark.h>
 
 #include "counting.h"
-#include "machine.h"
+#include "google.h"
 #include "plan.h"
 #include "rounds.h"
 #include "runner.h"
 
 namespace {
 
+using hedgerow::bench::GoogleOptions;
 using hedgerow::bench::Plan;
 using hedgerow::bench::PlanOptions;
 using hedgerow::bench::RoundsOptions;
 
+constexpr std::int64_t kMaxIterations = 1'000'000'000;
+
 struct Options {
   PlanOptions plan;
   RoundsOptions rounds;
+  GoogleOptions google;
   std::string counted;  // regular expression
-  std::vector<std::string> others;
 };
 
 void describe(CLI::App& app, Options& options) {
   app.footer(
       "Without --out, Google Benchmark runs one after the other, for a look, and takes its own\n"
       "options (--benchmark_filter=REGEX and others). Names are operation/dataset/size/threads,\n"
-      "with /variant behind it for a baseline, a peer library or another way. An item is a\n"
+      "with /variant behind it for a baseline, a peer library or another way; then, but not with\n"
+      "--out and --count, the class of the working set: /L1, /L2, /LLC or /DRAM. An item is a\n"
       "half-edge. Each answer is checked before it is timed; one that is wrong gives status 1.\n"
       "Example: hedgerow_bench --benchmark_filter='^build/grid/4M'");
   app.add_option("--out", options.rounds.out,
@@ -45,6 +48,10 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--filter", options.rounds.filter, "Only what has such a name, in rounds");
   app.add_option("--count", options.counted,
                  "Run what has such a name once, on one thread, for bench/count.py");
+  app.add_option("--fixed-iterations", options.google.iterations,
+                 "Exactly so many of each benchmark; answers are not compared with the reference, "
+                 "but their digests are printed, for whoever compares two builds")
+      ->check(CLI::Range(std::int64_t{1}, kMaxIterations));
   app.add_option("--mesh", options.plan.meshes,
                  "Measure on this file, too; from the second on, only how the builder chooses")
       ->envname("HEDGEROW_MESH")
@@ -73,28 +80,16 @@ void add_all(const Plan& plan) {
   add_representations(plan);
 }
 
-/// Hands what is left of the command line to Google Benchmark; false if that does not know it.
-bool initialise_benchmark(const char* program, const std::vector<std::string>& others) {
-  std::vector<std::string> texts{program};
-  texts.insert(texts.end(), others.begin(), others.end());
-  std::vector<char*> arguments;
-  for (std::string& text : texts) arguments.push_back(text.data());
-  auto count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
-  return !benchmark::ReportUnrecognizedArguments(count, arguments.data());
-}
-
-int run_chosen(const Options& options) {
-  if (!options.counted.empty()) return hedgerow::bench::count_cases(options.counted);
-  if (!options.rounds.out.empty()) return hedgerow::bench::run_rounds(options.rounds);
-  for (const auto& [key, value] : hedgerow::bench::machine_context()) {
-    benchmark::AddCustomContext(key, value);
+/// Returns the number of wrong answers.
+int run_chosen(const char* program, const Options& options) {
+  const bool is_google = options.counted.empty() && options.rounds.out.empty();
+  if (is_google) return hedgerow::bench::run_google(program, options.google);
+  if (!options.google.others.empty()) {
+    throw hedgerow::bench::UsageError(options.google.others.front() +
+                                      ": not known, or not beside --out and --count");
   }
-  bool has_output_file = false;
-  for (const std::string& text : options.others) {
-    has_output_file |= text.starts_with("--benchmark_out=");
-  }
-  return hedgerow::bench::run_all(has_output_file);
+  return options.counted.empty() ? hedgerow::bench::run_rounds(options.rounds)
+                                 : hedgerow::bench::count_cases(options.counted);
 }
 
 }  // namespace
@@ -103,16 +98,28 @@ int main(int argc, char** argv) {
   CLI::App app("Times the engine, and other mesh libraries beside it.", "hedgerow_bench");
   Options options;
   describe(app, options);
-  CLI11_PARSE(app, argc, argv);
-  options.others = app.remaining();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  options.google.others = app.remaining();
+  options.google.is_checked = options.google.iterations == 0;
+  options.plan.is_recorded = !options.rounds.out.empty();
   options.rounds.is_smoke = options.plan.is_smoke;
-  if (options.plan.is_smoke) options.plan.meshes.clear();
-  if (!initialise_benchmark(argv[0], options.others)) return 2;
+  if (options.plan.is_smoke) {
+    options.plan.meshes.clear();
+    if (options.google.is_checked) options.google.iterations = 1;
+  }
   try {
     add_all(hedgerow::bench::make_plan(options.plan));
-    const int error_count = run_chosen(options);
-    benchmark::Shutdown();
-    return error_count == 0 ? 0 : 1;
+    return run_chosen(argv[0], options) == 0 ? 0 : 1;
+  } catch (const hedgerow::bench::UsageError& error) {
+    std::cerr << "hedgerow_bench: " << error.what() << "\n";
+    return 2;
+  } catch (const std::regex_error& error) {
+    std::cerr << "hedgerow_bench: the filter: " << error.what() << "\n";
+    return 2;
   } catch (const std::exception& error) {
     std::cerr << "hedgerow_bench: " << error.what() << "\n";
     return 3;

@@ -2,6 +2,7 @@
 // the workspace is kept, so nothing is allocated while the clock runs.
 #include <array>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "hedgerow/normals.h"
@@ -22,6 +23,7 @@ struct Output {
 
   Buffer<float> values;
   Workspace workspace;
+  bool is_done = false;
 };
 
 using Compute = Result<NormalStats> (*)(const Dataset&, const NormalOptions&, const Execution&,
@@ -53,35 +55,42 @@ bool is_of_faces(Compute compute) {
 /// What `weight` should give where the reference has it: the others are compared with each other.
 const std::vector<float>* expected_normals(const Dataset& data, Compute compute,
                                            NormalWeight weight) {
-  if (is_of_faces(compute)) return &data.reference.face_normals;
-  if (weight == NormalWeight::area) return &data.reference.area_normals;
-  if (weight == NormalWeight::uniform) return &data.reference.uniform_normals;
+  if (is_of_faces(compute)) return &data.reference().face_normals;
+  if (weight == NormalWeight::area) return &data.reference().area_normals;
+  if (weight == NormalWeight::uniform) return &data.reference().uniform_normals;
   return nullptr;
+}
+
+/// Why `normals` are wrong, or "".
+std::string compare_engine(const Dataset& data, Compute compute, const NormalOptions& options,
+                           std::span<const float> normals) {
+  if (const auto* expected = expected_normals(data, compute, options.weight)) {
+    const std::vector<Index> skipped =
+        is_of_faces(compute) ? std::vector<Index>{} : vertices_with_several_fans(data.mesh);
+    return compare_normals(normals, *expected, kNormalTolerance, skipped);
+  }
+  // The other method, serially, must give the same bits.
+  Output other(data.mesh.vertex_count());
+  const Compute check = compute == compute_facelist ? compute_halfedge : compute_facelist;
+  const bool is_done = check(data, options, Execution::serial(), other).has_value();
+  return is_done ? compare_normals(normals, other.values.span(), 0.0F, {})
+                 : "the other method failed; not measured";
 }
 
 Work prepare_engine(const Dataset& data, const Execution& execution, Compute compute,
                     NormalWeight weight) {
   const NormalOptions options{.weight = weight};
-  const bool is_face = is_of_faces(compute);
-  auto out = std::make_shared<Output>(is_face ? data.mesh.face_count() : data.mesh.vertex_count());
+  auto out = std::make_shared<Output>(is_of_faces(compute) ? data.mesh.face_count()
+                                                           : data.mesh.vertex_count());
   Work work;
   work.run = [&data, execution, options, compute, out] {
-    static_cast<void>(compute(data, options, execution, *out));
+    out->is_done = compute(data, options, execution, *out).has_value();
   };
-  if (!compute(data, options, execution, *out)) {
-    work.error = "the operation failed; not measured";
-  } else if (const auto* expected = expected_normals(data, compute, weight)) {
-    const std::vector<Index> skipped =
-        is_face ? std::vector<Index>{} : vertices_with_several_fans(data.mesh);
-    work.error = compare_normals(out->values.span(), *expected, kNormalTolerance, skipped);
-  } else {
-    // The other method, serially, must give the same bits.
-    Output other(data.mesh.vertex_count());
-    const Compute check = compute == compute_facelist ? compute_halfedge : compute_facelist;
-    const bool is_done = check(data, options, Execution::serial(), other).has_value();
-    work.error = is_done ? compare_normals(out->values.span(), other.values.span(), 0.0F, {})
-                         : "the other method failed; not measured";
-  }
+  work.check = [&data, options, compute, out]() -> std::string {
+    if (!out->is_done) return "the operation failed; not measured";
+    return compare_engine(data, compute, options, out->values.span());
+  };
+  work.digest = [out] { return digest_of(out->values); };
   return work;
 }
 
@@ -97,16 +106,19 @@ Work prepare_peer(const Dataset& data, const Peer& peer, bool is_face) {
   } else {
     work.run = [mesh] { mesh->compute_vertex_normals(); };
   }
-  work.run();
-  if (is_face) {
-    work.error =
-        compare_normals(mesh->face_normals(), data.reference.face_normals, kNormalTolerance, {});
-  } else {
-    const auto& expected = peer.weight == NormalWeight::area ? data.reference.area_normals
-                                                             : data.reference.uniform_normals;
-    work.error = compare_normals(mesh->vertex_normals(), expected, kNormalTolerance,
-                                 vertices_with_several_fans(data.mesh));
-  }
+  work.check = [&data, &peer, mesh, is_face] {
+    const Reference& reference = data.reference();
+    if (is_face) {
+      return compare_normals(mesh->face_normals(), reference.face_normals, kNormalTolerance, {});
+    }
+    const auto& expected =
+        peer.weight == NormalWeight::area ? reference.area_normals : reference.uniform_normals;
+    return compare_normals(mesh->vertex_normals(), expected, kNormalTolerance,
+                           vertices_with_several_fans(data.mesh));
+  };
+  work.digest = [mesh, is_face] {
+    return digest_of(is_face ? mesh->face_normals() : mesh->vertex_normals());
+  };
   return work;
 }
 
@@ -149,25 +161,24 @@ constexpr std::array<std::pair<NormalWeight, const char*>, 3> kOtherWeights = {
      {NormalWeight::angle, "angle"},
      {NormalWeight::max, "max"}}};
 
-void add_engine(const Plan& plan, const Operation& operation, const DatasetKey& key, int threads,
-                NormalWeight weight, const std::string& variant) {
-  add(plan,
-      {operation.name, key, threads, variant,
+void add_engine(const Operation& operation, const DatasetKey& key, int threads, NormalWeight weight,
+                const std::string& variant) {
+  add({operation.name, key, threads, variant,
        [compute = operation.compute, weight](const Dataset& data, const Execution& execution) {
          return prepare_engine(data, execution, compute, weight);
        },
        operation.traffic, Mix::triad, operation.family});
 }
 
-void add_peer(const Plan& plan, const DatasetKey& key, const Peer& peer, bool is_face) {
+void add_peer(const DatasetKey& key, const Peer& peer, bool is_face) {
   // Libraries that keep half-edges walk them for vertex normals; their time includes the face
   // normals that they need first.
   const Operation& operation = is_face ? kOperations[0] : kOperations[2];
-  add(plan, {operation.name, key, 1, peer.name,
-             [&peer, is_face](const Dataset& data, const Execution&) {
-               return prepare_peer(data, peer, is_face);
-             },
-             operation.traffic, Mix::triad, operation.family});
+  add({operation.name, key, 1, peer.name,
+       [&peer, is_face](const Dataset& data, const Execution&) {
+         return prepare_peer(data, peer, is_face);
+       },
+       operation.traffic, Mix::triad, operation.family});
 }
 
 Work prepare_stored(const Dataset& data, const Execution& execution) {
@@ -177,9 +188,11 @@ Work prepare_stored(const Dataset& data, const Execution& execution) {
     static_cast<void>(
         gather_vertex_normals(*mesh, data.positions(), out->view(), {}, execution, out->workspace));
   };
-  work.run();
-  work.error = compare_normals(out->values.span(), data.reference.area_normals, kNormalTolerance,
-                               vertices_with_several_fans(data.mesh));
+  work.check = [&data, out] {
+    return compare_normals(out->values.span(), data.reference().area_normals, kNormalTolerance,
+                           vertices_with_several_fans(data.mesh));
+  };
+  work.digest = [out] { return digest_of(out->values); };
   return work;
 }
 
@@ -189,26 +202,26 @@ void add_normals(const Plan& plan) {
   for (const DatasetKey& key : plan.all) {
     for (const Operation& operation : kOperations) {
       for (const int threads : plan.threads) {
-        add_engine(plan, operation, key, threads, NormalWeight::area, "");
+        add_engine(operation, key, threads, NormalWeight::area, "");
       }
     }
     if (!plan.has_peers(key)) continue;
     for (const Peer& peer : peers()) {
       if (!peer.has_normals) continue;
-      for (const bool is_face : {true, false}) add_peer(plan, key, peer, is_face);
+      for (const bool is_face : {true, false}) add_peer(key, peer, is_face);
     }
   }
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      add_engine(plan, kListFaces, key, threads, NormalWeight::area, "list");
-      add(plan, {"vertex_normals_halfedge", key, threads, "stored", prepare_stored, stored_traffic,
-                 Mix::triad, "vertex_normals"});
+      add_engine(kListFaces, key, threads, NormalWeight::area, "list");
+      add({"vertex_normals_halfedge", key, threads, "stored", prepare_stored, stored_traffic,
+           Mix::triad, "vertex_normals"});
       for (const Operation& operation : {kOperations[1], kOperations[2]}) {
         for (const auto& [weight, variant] : kOtherWeights) {
           // All weights on one dataset; on the others the one that is far more work.
           const bool is_first = key == plan.large.front();
           if (is_first || weight == NormalWeight::angle) {
-            add_engine(plan, operation, key, threads, weight, variant);
+            add_engine(operation, key, threads, weight, variant);
           }
         }
       }

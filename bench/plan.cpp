@@ -51,6 +51,13 @@ Plan represented_plan() {
   return plan;
 }
 
+/// Whole-mesh operations on meshes that a few milliseconds are enough for, too.
+void add_quick(Plan& plan) {
+  for (const std::int64_t size : {std::int64_t{10'000}, std::int64_t{100'000}}) {
+    for (const char* order : {"grid", "scan", "shuffled"}) plan.large.push_back({order, size, ""});
+  }
+}
+
 Plan full_plan(std::int64_t largest) {
   Plan plan;
   add_orders(plan, 1'000, false);
@@ -90,6 +97,7 @@ Plan make_plan(const PlanOptions& options) {
   Plan plan = options.is_smoke         ? smoke_plan()
               : options.is_represented ? represented_plan()
                                        : full_plan(largest);
+  if (!options.is_smoke && !options.is_represented && !options.is_recorded) add_quick(plan);
   plan.is_smoke = options.is_smoke;
   plan.threads = options.threads;
   std::ranges::sort(plan.threads);

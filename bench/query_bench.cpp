@@ -1,6 +1,8 @@
 // hedgerow/query.h and hedgerow/radial.h: questions about the whole mesh.
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "hedgerow/query.h"
 #include "hedgerow/radial.h"
@@ -18,11 +20,19 @@ Work prepare_loops(const Dataset& data, std::shared_ptr<const Connectivity> stor
   const Connectivity& mesh = stored ? *stored : data.mesh;
   Work work;
   work.run = [&mesh, stored = std::move(stored), loops] { *loops = boundary_loops(mesh); };
-  work.run();
-  if (loops->count() != data.reference.boundary_loops) {
-    work.error = "another number of boundary loops than the reference; not measured";
-  }
+  work.check = [&data, loops] {
+    return loops->count() == data.reference().boundary_loops
+               ? ""
+               : "another number of boundary loops than the reference; not measured";
+  };
+  work.digest = [loops] { return digest_of(loops->halfedges); };
   return work;
+}
+
+std::string compare_count(Index component_count, const Dataset& data) {
+  return component_count == data.reference().components
+             ? ""
+             : "another number of components than the reference; not measured";
 }
 
 Work prepare_components(const Dataset& data, const Execution& execution) {
@@ -31,10 +41,8 @@ Work prepare_components(const Dataset& data, const Execution& execution) {
   work.run = [&data, components, execution] {
     *components = connected_components(data.mesh, execution);
   };
-  work.run();
-  if (components->count != data.reference.components) {
-    work.error = "another number of components than the reference; not measured";
-  }
+  work.check = [&data, components] { return compare_count(components->count, data); };
+  work.digest = [components] { return digest_of(components->label); };
   return work;
 }
 
@@ -43,11 +51,21 @@ Work prepare_peer_components(const Dataset& data, const Peer& peer) {
   auto count = std::make_shared<Index>();
   Work work;
   work.run = [mesh, count] { *count = mesh->component_count(); };
-  work.run();
-  if (*count != data.reference.components) {
-    work.error = "another number of components than the reference; not measured";
-  }
+  work.check = [&data, count] { return compare_count(*count, data); };
+  work.digest = [count] { return static_cast<std::uint64_t>(*count); };
   return work;
+}
+
+/// A pair between the vertices of an edge that was cut is part of a longer cycle.
+std::string compare_cycles(const RadialCycles& edges, const std::vector<Index>& opposite) {
+  for (std::size_t h = 0; h < opposite.size(); ++h) {
+    const HalfedgeId next = edges.next(HalfedgeId(static_cast<Index>(h)));
+    if (opposite[h] == kInvalidIndex || next.value == opposite[h]) continue;
+    if (edges.next(next).value == static_cast<Index>(h)) {
+      return "a pair that the reference does not have; not measured";
+    }
+  }
+  return "";
 }
 
 Work prepare_radial(const Dataset& data, const Execution& execution) {
@@ -55,19 +73,14 @@ Work prepare_radial(const Dataset& data, const Execution& execution) {
   Work work;
   work.run = [&data, execution, edges] { *edges = build_radial(data.mesh, execution); };
   work.cleanup = [edges] { *edges = {}; };
-  work.run();
-  const std::vector<Index>& opposite = data.reference.opposite;
-  for (std::size_t h = 0; h < opposite.size() && work.error.empty(); ++h) {
-    if (opposite[h] == kInvalidIndex ||
-        edges->next(HalfedgeId(static_cast<Index>(h))).value == opposite[h])
-      continue;
-    // A pair between the vertices of an edge that was cut is part of a longer cycle.
-    const HalfedgeId next = edges->next(HalfedgeId(static_cast<Index>(h)));
-    if (edges->next(next).value == static_cast<Index>(h)) {
-      work.error = "a pair that the reference does not have; not measured";
+  work.check = [&data, edges] { return compare_cycles(*edges, data.reference().opposite); };
+  work.digest = [&data, edges] {
+    std::vector<Index> next(static_cast<std::size_t>(data.mesh.halfedge_count()));
+    for (std::size_t h = 0; h < next.size(); ++h) {
+      next[h] = edges->next(HalfedgeId(static_cast<Index>(h))).value;
     }
-  }
-  work.cleanup();
+    return digest_of(next);
+  };
   return work;
 }
 
@@ -89,33 +102,32 @@ Traffic components_traffic(const Dataset& data) {
 
 void add_query(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
-    add(plan, {"boundary_loops", key, 1, "stored",
-               [](const Dataset& data, const Execution&) {
-                 return prepare_loops(data, stored_form(data));
-               },
-               loops_traffic, Mix::read});
+    add({"boundary_loops", key, 1, "stored",
+         [](const Dataset& data, const Execution&) {
+           return prepare_loops(data, stored_form(data));
+         },
+         loops_traffic, Mix::read});
   }
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      add(plan, {"build_radial", key, threads, "", prepare_radial, radial_traffic, Mix::copy});
+      add({"build_radial", key, threads, "", prepare_radial, radial_traffic, Mix::copy});
     }
   }
   for (const DatasetKey& key : plan.all) {
-    add(plan, {"boundary_loops", key, 1, "",
-               [](const Dataset& data, const Execution&) { return prepare_loops(data, nullptr); },
-               loops_traffic, Mix::read});
+    add({"boundary_loops", key, 1, "",
+         [](const Dataset& data, const Execution&) { return prepare_loops(data, nullptr); },
+         loops_traffic, Mix::read});
     for (const int threads : plan.threads) {
-      add(plan,
-          {"components", key, threads, "", prepare_components, components_traffic, Mix::read});
+      add({"components", key, threads, "", prepare_components, components_traffic, Mix::read});
     }
     if (!plan.has_peers(key)) continue;
     for (const Peer& peer : peers()) {
       if (!peer.is_baseline) continue;
-      add(plan, {"components", key, 1, peer.name,
-                 [&peer](const Dataset& data, const Execution&) {
-                   return prepare_peer_components(data, peer);
-                 },
-                 components_traffic, Mix::read});
+      add({"components", key, 1, peer.name,
+           [&peer](const Dataset& data, const Execution&) {
+             return prepare_peer_components(data, peer);
+           },
+           components_traffic, Mix::read});
     }
   }
 }

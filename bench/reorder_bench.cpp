@@ -53,9 +53,14 @@ Work prepare(const Dataset& data, const Execution& execution, ReorderMethod meth
     if (result) output->emplace(std::move(*result));
   };
   work.cleanup = [output] { output->reset(); };
-  work.run();
-  work.error = output->has_value() ? compare(data, **output) : "reorder failed; not measured";
-  work.cleanup();
+  work.check = [&data, output] {
+    return output->has_value() ? compare(data, **output) : "reorder failed; not measured";
+  };
+  work.digest = [output] { return output->has_value() ? digest_of((*output)->mesh) : 0; };
+  work.notes = [output]() -> Notes {
+    if (!output->has_value()) return {};
+    return {{"bytes_per_halfedge", bytes_per_halfedge((*output)->mesh)}};
+  };
   return work;
 }
 
@@ -65,11 +70,11 @@ void add_reorder(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     for (const auto& [method, name] : kMethods) {
       for (const int threads : plan.threads) {
-        add(plan, {name, key, threads, "",
-                   [method = method](const Dataset& data, const Execution& execution) {
-                     return prepare(data, execution, method);
-                   },
-                   traffic, Mix::copy});
+        add({name, key, threads, "",
+             [method = method](const Dataset& data, const Execution& execution) {
+               return prepare(data, execution, method);
+             },
+             traffic, Mix::copy});
       }
     }
   }

@@ -15,6 +15,8 @@ namespace hedgerow::bench {
 
 namespace {
 
+constexpr const char* kOtherAnswer = "another answer than the reference; not measured";
+
 /// The representation of a dataset, kept while others of the same dataset are asked for: making
 /// one takes longer than most measurements.
 std::shared_ptr<Representation> made(const RepresentationKind& kind, const Dataset& data) {
@@ -33,11 +35,13 @@ Work prepare_question(const Dataset& data, const RepresentationKind& kind, Quest
   const auto answer = std::make_shared<std::uint64_t>();
   Work work;
   work.run = [mesh, question, answer] { *answer = mesh->answer(question).value_or(0); };
-  work.run();
-  if (*answer != expected_answer(data, question, kind.is_closed)) {
-    work.error = "another answer than the reference; not measured";
-  }
-  work.notes["elements"] = question_elements(data, question);
+  work.check = [&data, question, &kind, answer] {
+    return *answer == expected_answer(data, question, kind.is_closed) ? "" : kOtherAnswer;
+  };
+  work.digest = [answer] { return *answer; };
+  work.notes = [&data, question]() -> Notes {
+    return {{"elements", question_elements(data, question)}};
+  };
   return work;
 }
 
@@ -45,10 +49,12 @@ Work prepare_normals(const Dataset& data, const RepresentationKind& kind) {
   const auto mesh = made(kind, data);
   Work work;
   work.run = [mesh] { mesh->compute_vertex_normals(); };
-  work.run();
-  work.error = compare_normals(mesh->vertex_normals(), data.reference.area_normals,
-                               kNormalTolerance, vertices_with_several_fans(data.mesh));
-  work.notes["elements"] = counts_of(data).vertices;
+  work.check = [&data, mesh] {
+    return compare_normals(mesh->vertex_normals(), data.reference().area_normals, kNormalTolerance,
+                           vertices_with_several_fans(data.mesh));
+  };
+  work.digest = [mesh] { return digest_of(mesh->vertex_normals()); };
+  work.notes = [&data]() -> Notes { return {{"elements", counts_of(data).vertices}}; };
   return work;
 }
 
@@ -62,48 +68,52 @@ Work prepare_build(const Dataset& data, const RepresentationKind& kind) {
     mesh->reset();
     malloc_trim(0);
   };
-  work.run();
-  const double edges = question_elements(data, Question::euler);
-  work.notes["elements"] = edges;
-  work.notes["bytes_per_edge"] = static_cast<double>((*mesh)->bytes()) / edges;
   const Question check = Question::edge_faces;
-  if ((*mesh)->answer(check) != expected_answer(data, check, kind.is_closed)) {
-    work.error = "another answer than the reference; not measured";
-  }
-  work.cleanup();
+  work.check = [&data, &kind, mesh, check] {
+    return (*mesh)->answer(check) == expected_answer(data, check, kind.is_closed) ? ""
+                                                                                  : kOtherAnswer;
+  };
+  work.digest = [mesh, check] { return (*mesh)->answer(check).value_or(0); };
+  work.notes = [&data, mesh]() -> Notes {
+    const double edges = question_elements(data, Question::euler);
+    const auto bytes = static_cast<double>((*mesh)->bytes());
+    return {{"elements", edges},
+            {"bytes_per_edge", bytes / edges},
+            {"bytes_per_halfedge", bytes / counts_of(data).halfedges}};
+  };
   return work;
 }
 
-void add_rows(const Plan& plan, const DatasetKey& key, const RepresentationKind& kind) {
+void add_rows(const DatasetKey& key, const RepresentationKind& kind) {
   const auto no_traffic = [](const Dataset&) { return Traffic{}; };
   const bool is_radial = kind.name == std::string_view("radial");
   const bool is_table = kind.name == std::string_view("nonmanifold");
-  add(plan, {"represent_build", key, 1, kind.name,
-             [&kind](const Dataset& data, const Execution&) { return prepare_build(data, kind); },
-             no_traffic, Mix::read});
+  add({"represent_build", key, 1, kind.name,
+       [&kind](const Dataset& data, const Execution&) { return prepare_build(data, kind); },
+       no_traffic, Mix::read});
   for (std::size_t i = 0; i < kQuestionCount; ++i) {
     const auto question = static_cast<Question>(i);
     // The cycles answer one question that the columns do not; rows have no rotation.
     const bool is_rotation =
         question == Question::ring_halfedges || question == Question::ring_reversed;
     if ((is_radial && question != Question::edge_faces) || (is_table && is_rotation)) continue;
-    add(plan, {"represent_" + std::string(name(question)), key, 1, kind.name,
-               [&kind, question](const Dataset& data, const Execution&) {
-                 return prepare_question(data, kind, question);
-               },
-               no_traffic, Mix::read});
+    add({"represent_" + std::string(name(question)), key, 1, kind.name,
+         [&kind, question](const Dataset& data, const Execution&) {
+           return prepare_question(data, kind, question);
+         },
+         no_traffic, Mix::read});
   }
   if (is_radial) return;
-  add(plan, {"represent_vertex_normals", key, 1, kind.name,
-             [&kind](const Dataset& data, const Execution&) { return prepare_normals(data, kind); },
-             no_traffic, Mix::read});
+  add({"represent_vertex_normals", key, 1, kind.name,
+       [&kind](const Dataset& data, const Execution&) { return prepare_normals(data, kind); },
+       no_traffic, Mix::read});
 }
 
 }  // namespace
 
 void add_representations(const Plan& plan) {
   for (const DatasetKey& key : plan.represented) {
-    for (const RepresentationKind& kind : representation_kinds()) add_rows(plan, key, kind);
+    for (const RepresentationKind& kind : representation_kinds()) add_rows(key, kind);
   }
 }
 

@@ -133,14 +133,15 @@ class Group {
     contender.benchmark = &benchmark;
     const Dataset& data = dataset(benchmark.data);
     contender.work = benchmark.prepare(data, execution_with(benchmark.threads));
+    const Answer answer = first_answer(contender.work, true);
     Row& row = contender.row;
     row.name = benchmark.name();
-    row.error = contender.work.error;
+    row.error = answer.error;
     row.counts = counts_of(data);
     row.mesh_bytes = static_cast<double>(data.mesh.bytes());
     row.traffic = benchmark.traffic(data);
     row.mix = benchmark.mix;
-    row.notes = contender.work.notes;
+    row.notes = answer.notes;
     // Where no bytes are stated, as for questions to records, there is no limit to compare with.
     if (row.traffic.total() > 0) add_limit(benchmark, row.traffic.total());
     contenders_.push_back(std::move(contender));

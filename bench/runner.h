@@ -1,22 +1,50 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dataset.h"
+#include "hedgerow/digest.h"
 #include "hedgerow/execution.h"
 
 namespace hedgerow::bench {
 
+/// What a row says besides its time, by name.
+using Notes = std::map<std::string, double>;
+
 /// The work of one benchmark, ready to be timed.
 struct Work {
-  std::function<void()> run;            ///< timed
-  std::function<void()> cleanup;        ///< not timed, after each run; may be empty
-  std::string error;                    ///< why it must not be timed: the answer is wrong; else ""
-  std::map<std::string, double> notes;  ///< what else the row should say, by name
+  std::function<void()> run;      ///< timed
+  std::function<void()> cleanup;  ///< not timed, after each run; may be empty
+
+  // Asked after a run, before its cleanup:
+  std::function<std::string()> check;     ///< why the answer is wrong; "" if it is right
+  std::function<std::uint64_t()> digest;  ///< of the answer: equal for equal answers
+  std::function<Notes()> notes;           ///< may be empty
+
+  std::string error;  ///< why there is nothing to run; else ""
 };
+
+/// What the first run gave.
+struct Answer {
+  std::string error;  ///< why the work must not be timed; else ""
+  std::uint64_t digest = 0;
+  Notes notes;
+};
+/// Runs the work once, asks for its answer and cleans up. Without `is_checked` the answer is not
+/// compared with the reference: for whoever compares the digests of two programs.
+[[nodiscard]] Answer first_answer(const Work& work, bool is_checked);
+
+/// The digest of a mesh, and of a range of plain values.
+[[nodiscard]] std::uint64_t digest_of(const Connectivity& mesh);
+template <class Range>
+[[nodiscard]] std::uint64_t digest_of(const Range& values) {
+  return digest(std::as_bytes(std::span(values.data(), values.size())));
+}
 
 /// Bytes that any implementation of an operation has to move: each input column read once, each
 /// output column written once, nothing for lines that are read before they are overwritten.
@@ -43,7 +71,7 @@ struct Case {
   DatasetKey data;
   int threads = 1;
   std::string variant;
-  /// Sets the work up, runs it once and compares the answer with the reference.
+  /// Sets the work up.
   std::function<Work(const Dataset&, const Execution&)> prepare;
   std::function<Traffic(const Dataset&)> traffic;
   Mix mix = Mix::triad;
@@ -52,6 +80,8 @@ struct Case {
   std::string family{};
 
   [[nodiscard]] std::string name() const;
+  /// The name, and behind it the class of its working set: "build/grid/4M/1/DRAM".
+  [[nodiscard]] std::string name_with_class() const;
   [[nodiscard]] std::string group() const;
 };
 
@@ -69,9 +99,9 @@ struct Plan {
 };
 
 /// Registers one benchmark. An item is a half-edge, always.
-void add(const Plan& plan, Case benchmark);
+void add(Case benchmark);
 
-/// All that were registered, in that order.
+/// All that were registered, in that order. Lifetime: until the next one is added.
 [[nodiscard]] const std::vector<Case>& all_cases();
 
 /// An arena of `threads` threads, kept for the whole run; serial for 1.
@@ -93,10 +123,8 @@ void add_reorder(const Plan& plan);
 void add_representations(const Plan& plan);
 void add_validate(const Plan& plan);
 
-/// Runs what was registered and passed the filter with Google Benchmark, one after the other, for
-/// a look; returns the number that reported an error.
-/// \pre `has_output_file` says whether --benchmark_out was given.
-[[nodiscard]] int run_all(bool has_output_file);
+/// What the connectivity of `mesh` takes.
+[[nodiscard]] double bytes_per_halfedge(const Connectivity& mesh);
 
 /// Bytes of one index, as a factor for `Case::traffic`.
 inline constexpr double kIndexBytes = sizeof(Index);

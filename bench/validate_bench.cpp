@@ -1,5 +1,6 @@
 // hedgerow/validate.h: all invariants of a sound mesh.
 #include <memory>
+#include <string>
 
 #include "hedgerow/validate.h"
 #include "runner.h"
@@ -31,12 +32,14 @@ Work prepare(const Dataset& data, const Execution& execution) {
   auto violations = std::make_shared<std::vector<Violation>>();
   Work work;
   work.run = [&data, execution, violations] { *violations = validate(data.mesh, execution); };
-  work.run();
-  if (!violations->empty()) {
-    work.error = "violations in a sound mesh; not measured";
-  } else if (data.mesh.is_implicit() && !finds_damage(data, execution)) {
-    work.error = "no violation in a damaged mesh; not measured";
-  }
+  work.check = [&data, execution, violations]() -> std::string {
+    if (!violations->empty()) return "violations in a sound mesh; not measured";
+    if (data.mesh.is_implicit() && !finds_damage(data, execution)) {
+      return "no violation in a damaged mesh; not measured";
+    }
+    return "";
+  };
+  work.digest = [violations] { return static_cast<std::uint64_t>(violations->size()); };
   return work;
 }
 
@@ -45,7 +48,7 @@ Work prepare(const Dataset& data, const Execution& execution) {
 void add_validate(const Plan& plan) {
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      add(plan, {"validate", key, threads, "", prepare, traffic, Mix::read});
+      add({"validate", key, threads, "", prepare, traffic, Mix::read});
     }
   }
 }

@@ -13,7 +13,7 @@ std::uint64_t as_number(Index i) noexcept { return static_cast<std::uint64_t>(i)
 struct Plain {
   explicit Plain(const Dataset& data)
       : corners(static_cast<const Index*>(data.faces().corners)),
-        opposite(data.reference.opposite),
+        opposite(data.reference().opposite),
         count(static_cast<Index>(opposite.size())),
         vertex_count(data.mesh.vertex_count()) {}
 
@@ -132,13 +132,13 @@ std::uint64_t expected_answer(const Dataset& data, Question question, bool is_cl
     case Question::boundary_loop:
       return sum_loop(mesh);
     case Question::boundary_loops:
-      return as_number(data.reference.boundary_loops);
+      return as_number(data.reference().boundary_loops);
     case Question::components:
-      return as_number(data.reference.components);
+      return as_number(data.reference().components);
     case Question::euler:
       return euler(mesh);
     case Question::genus: {
-      const Reference& reference = data.reference;
+      const Reference& reference = data.reference();
       return (2 * as_number(reference.components) - as_number(reference.boundary_loops) -
               euler(mesh)) /
              2;
