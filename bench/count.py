@@ -67,11 +67,11 @@ def functions(text, column):
     return own
 
 
-def count(program, pattern, path, options):
+def count(program, pattern, path, options, caches=tuple(CACHES)):
     """The counted rows of one process."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind.out"
-        command = ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--cache-sim=yes", *CACHES,
+        command = ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--cache-sim=yes", *caches,
                    f"--callgrind-out-file={out}", program, "--threads", "1", "--count", pattern, *options]
         ran = subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                              env={**os.environ, "HEDGEROW_SIMD": path})

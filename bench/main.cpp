@@ -106,6 +106,7 @@ int main(int argc, char** argv) {
   options.google.others = app.remaining();
   options.google.is_checked = options.google.iterations == 0;
   options.plan.is_recorded = !options.rounds.out.empty();
+  options.plan.is_counted = !options.counted.empty();
   options.rounds.is_smoke = options.plan.is_smoke;
   if (options.plan.is_smoke) {
     options.plan.meshes.clear();

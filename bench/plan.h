@@ -15,6 +15,7 @@ struct PlanOptions {
   std::int64_t largest = 0;         ///< triangles of the largest meshes; 0: as `largest_mesh` says
   bool is_smoke = false;
   bool is_recorded = false;     ///< for the tables of PERF.md, and nothing that is not in them
+  bool is_counted = false;      ///< for bench/limits.py as well
   bool is_represented = false;  ///< the representations, on generated meshes, and nothing else
 };
 
