@@ -6,6 +6,9 @@ void add_commands(Program& program) {
   add_inspect(program);
   add_report(program);
   add_normals(program);
+#if HEDGEROW_HAS_RAY
+  add_render(program);
+#endif
   add_convert(program);
   add_generate(program);
   add_reorder(program);

@@ -8,6 +8,7 @@ void add_convert(Program& program);
 void add_generate(Program& program);
 void add_inspect(Program& program);
 void add_normals(Program& program);
+void add_render(Program& program);  ///< defined only with HEDGEROW_HAS_RAY
 void add_reorder(Program& program);
 void add_repair(Program& program);
 void add_report(Program& program);
