@@ -13,7 +13,12 @@ import unittest
 from support import cli
 from support.cli import ProgramTest
 
-COMMANDS = ("inspect", "report", "normals", "convert", "generate", "reorder", "repair")
+COMMANDS = ("inspect", "report", "normals", "render", "convert", "generate", "reorder", "repair")
+
+
+def commands():
+    """Those of a program with or without a ray tracer."""
+    return tuple(name for name in COMMANDS if cli.RAYS or name != "render")
 
 
 class Help(ProgramTest):
@@ -30,10 +35,10 @@ class Help(ProgramTest):
         listed = text[text.index("ommands:"):].split("\n\n")[0]
         names = tuple(line.split()[0] for line in listed.splitlines()[1:]
                       if line.startswith("  ") and line[2] != " ")
-        self.assertEqual(names, COMMANDS)
+        self.assertEqual(names, commands())
 
     def test_every_command_has_help_with_an_example(self):
-        for command in COMMANDS:
+        for command in commands():
             text = self.done(command, "--help")
             self.assertIn(f"Example: hedgerow {command} ", text)
             for option in ("--json", "--threads", "--policy", "--strict", "--quiet",
@@ -44,7 +49,7 @@ class Help(ProgramTest):
 class Usage(ProgramTest):
     def test_mistakes_end_with_status_2(self):
         mesh = self.file("a.obj", cli.TETRAHEDRON)
-        for arguments in ((), ("--nonsense",), ("render", mesh, "a.png"), ("inspect",),
+        for arguments in ((), ("--nonsense",), ("draw", mesh, "a.png"), ("inspect",),
                           ("inspect", mesh, "--nonsense"), ("inspect", mesh, "extra"),
                           ("inspect", mesh, "--threads", "0"),
                           ("inspect", mesh, "--threads", "two"),

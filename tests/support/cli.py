@@ -13,6 +13,7 @@ import unittest
 
 PROGRAM = None  # set by main()
 SANITIZED = False
+RAYS = True
 TIMEOUT_S = 600
 
 TEXT_PLACE = re.compile(r"^(?P<path>.+?):\d+:\d+: error: [a-z0-9]+(-[a-z0-9]+)*: \S")
@@ -126,11 +127,14 @@ def shared_folder(source):
 
 
 def main(arguments):
-    """PROGRAM [--sanitized] [unittest arguments]"""
-    global PROGRAM, SANITIZED  # pylint: disable=global-statement
+    """PROGRAM [--sanitized] [--no-rays] [unittest arguments]"""
+    global PROGRAM, SANITIZED, RAYS  # pylint: disable=global-statement
     PROGRAM = arguments.pop(1)
     if "--sanitized" in arguments:
         arguments.remove("--sanitized")
         SANITIZED = True
+    if "--no-rays" in arguments:
+        arguments.remove("--no-rays")
+        RAYS = False
     sys.argv = arguments
     unittest.main(module="__main__", verbosity=2)
