@@ -54,7 +54,7 @@ Float3 add_corners(Float3 sum, Index* ids, Index count, const View& mesh,
 
 // The sum again, each term divided by a power of two near the largest.
 template <NormalWeight W, class View>
-bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, IndexSet& spill,
                        Float3& unit) noexcept {
   int exponent = kNoExponent;
   for_each_corner(mesh, v, [&](Index h) {
@@ -71,7 +71,7 @@ bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, H
 }
 
 template <NormalWeight W, class View>
-void gather_one(VertexId v, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+void gather_one(VertexId v, const View& mesh, const GatherInput& input, IndexSet& spill,
                 const NormalWriter& writer, NormalStats& stats) noexcept {
   Float3 sum{0, 0, 0};
   for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
@@ -86,7 +86,7 @@ void gather_one(VertexId v, const View& mesh, const GatherInput& input, Halfedge
 }
 
 template <NormalWeight W, class View>
-NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input, HalfedgeSet& spill,
+NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input, IndexSet& spill,
                    const NormalWriter& writer) noexcept {
   NormalStats stats;
   for (Index i = range.begin; i < range.end; ++i) {
@@ -107,7 +107,7 @@ unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexc
 
 template <NormalWeight W>
 NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const GatherInput& input,
-                          HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+                          IndexSet& spill, const NormalWriter& writer) noexcept {
   NormalStats stats;
   auto fan = std::lower_bound(
       mesh.fans.begin(), mesh.fans.end(), range.begin,
@@ -121,6 +121,43 @@ NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const Gath
     }
   }
   return merge(stats, gather<W>({i, range.end}, mesh, input, spill, writer));
+}
+
+template <NormalWeight W, class View>
+NormalStats gather_each(const Index* ids, Index count, const View& mesh, const GatherInput& input,
+                        IndexSet& spill, const NormalWriter& writer) noexcept {
+  NormalStats stats;
+  for (Index i = 0; i < count; ++i) {
+    gather_one<W>(VertexId(ids[i]), mesh, input, spill, writer, stats);
+  }
+  return stats;
+}
+
+// Bit i: vertex ids[i] has one fan at the most.
+unsigned with_one_fan(const Index* ids, FanTable fans) noexcept {
+  if (fans.empty()) return kWholeGroup;
+  unsigned wanted = 0;
+  for (int i = 0; i < static_cast<int>(kGroupSize); ++i) {
+    wanted |= static_cast<unsigned>(extra_fans(fans, VertexId(ids[i])).empty()) << i;
+  }
+  return wanted;
+}
+
+template <NormalWeight W>
+NormalStats gather_listed(const Index* ids, Index count, const TriangleView& mesh,
+                          const GatherInput& input, IndexSet& spill,
+                          const NormalWriter& writer) noexcept {
+  NormalStats stats;
+  for (; count >= kGroupSize; ids += kGroupSize, count -= kGroupSize) {
+    const unsigned wanted = with_one_fan(ids, mesh.fans);
+    unsigned left =
+        gather_listed_avx2<W>(ids, wanted, mesh, input, writer) | (kWholeGroup & ~wanted);
+    for (; left != 0; left &= left - 1) {
+      const VertexId v(ids[std::countr_zero(left)]);
+      gather_one<W>(v, mesh, input, spill, writer, stats);
+    }
+  }
+  return merge(stats, gather_each<W>(ids, count, mesh, input, spill, writer));
 }
 
 }  // namespace
@@ -151,7 +188,7 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 }
 
 NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
-                           HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+                           IndexSet& spill, const NormalWriter& writer) noexcept {
   const bool is_fast = suits_avx2(input.points);
   return with_weight(input.weight, [&](auto w) {
     return is_fast ? gather_groups<w()>(range, mesh, input, spill, writer)
@@ -160,9 +197,27 @@ NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const Gat
 }
 
 NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const GatherInput& input,
-                           HalfedgeSet& spill, const NormalWriter& writer) noexcept {
+                           IndexSet& spill, const NormalWriter& writer) noexcept {
   return with_weight(input.weight,
                      [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
+}
+
+NormalStats gather_normals(const Index* ids, Index count, const TriangleView& mesh,
+                           const GatherInput& input, IndexSet& spill,
+                           const NormalWriter& writer) noexcept {
+  const bool is_fast = suits_avx2(input.points);
+  return with_weight(input.weight, [&](auto w) {
+    return is_fast ? gather_listed<w()>(ids, count, mesh, input, spill, writer)
+                   : gather_each<w()>(ids, count, mesh, input, spill, writer);
+  });
+}
+
+NormalStats gather_normals(const Index* ids, Index count, const PolygonView& mesh,
+                           const GatherInput& input, IndexSet& spill,
+                           const NormalWriter& writer) noexcept {
+  return with_weight(input.weight, [&](auto w) {
+    return gather_each<w()>(ids, count, mesh, input, spill, writer);
+  });
 }
 
 }  // namespace hedgerow::kernels

@@ -25,10 +25,18 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 /// Writes the normals of the vertices in `range`; each vertex writes its own element. `spill` is
 /// empty, holds all half-edges, and is used by one call at a time.
 [[nodiscard]] NormalStats gather_normals(IndexRange range, const TriangleView& mesh,
-                                         const GatherInput& input, HalfedgeSet& spill,
+                                         const GatherInput& input, IndexSet& spill,
                                          const NormalWriter& writer) noexcept;
 [[nodiscard]] NormalStats gather_normals(IndexRange range, const PolygonView& mesh,
-                                         const GatherInput& input, HalfedgeSet& spill,
+                                         const GatherInput& input, IndexSet& spill,
+                                         const NormalWriter& writer) noexcept;
+
+/// The same for `count` vertices by their ids, each once.
+[[nodiscard]] NormalStats gather_normals(const Index* ids, Index count, const TriangleView& mesh,
+                                         const GatherInput& input, IndexSet& spill,
+                                         const NormalWriter& writer) noexcept;
+[[nodiscard]] NormalStats gather_normals(const Index* ids, Index count, const PolygonView& mesh,
+                                         const GatherInput& input, IndexSet& spill,
                                          const NormalWriter& writer) noexcept;
 
 /// The sum with what the given corners of triangles add, in their order: the plain form.
@@ -55,5 +63,11 @@ template <NormalWeight W>
 [[nodiscard]] unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
                                          const GatherInput& input,
                                          const NormalWriter& writer) noexcept;
+
+/// The same for kGroupSize vertices by their ids.
+template <NormalWeight W>
+[[nodiscard]] unsigned gather_listed_avx2(const Index* ids, unsigned wanted,
+                                          const TriangleView& mesh, const GatherInput& input,
+                                          const NormalWriter& writer) noexcept;
 
 }  // namespace hedgerow::kernels

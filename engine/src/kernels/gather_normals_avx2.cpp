@@ -2,6 +2,8 @@
 // sorted by one network of minimum and maximum, and the first corners of all are added, then the
 // second ones, and so on. Several such groups walk at once, as each step waits for memory.
 
+#include <type_traits>
+
 #include "kernels/gather_normals.h"
 #include "kernels/normals_avx2.h"
 
@@ -44,13 +46,35 @@ __m256i next(__m256i h) noexcept {
   return _mm256_sub_epi32(after, _mm256_and_si256(wraps, _mm256_set1_epi32(3)));
 }
 
-void walk(const Index* outgoing, const TriangleView& mesh, Rings* rings) noexcept {
+// The vertices of a group: in a row, or listed.
+struct InRow {
+  Index first;
+
+  [[nodiscard]] __m256i starts(const Index* outgoing, int g) const noexcept {
+    return load_indices(outgoing + first + g * kLanes);
+  }
+  [[nodiscard]] Index vertex(int i) const noexcept { return first + i; }
+  void write(int g, const Vec3<Float8>& units, const Writer8& writer8) const noexcept {
+    writer8.write(first + g * kLanes, units);
+  }
+};
+struct Listed {
+  const Index* ids;
+
+  [[nodiscard]] __m256i starts(const Index* outgoing, int g) const noexcept {
+    return gather(outgoing, load_indices(ids + g * kLanes), _mm256_set1_epi32(-1));
+  }
+  [[nodiscard]] Index vertex(int i) const noexcept { return ids[i]; }
+};
+
+template <class Place>
+void walk(const Place& place, const TriangleView& mesh, Rings* rings) noexcept {
   const __m256i none = _mm256_set1_epi32(kNone);
   __m256i start[kGroups];
   __m256i at[kGroups];
   __m256i walks[kGroups];
   for (int g = 0; g < kGroups; ++g) {
-    start[g] = load_indices(outgoing + g * kLanes);
+    start[g] = place.starts(mesh.outgoing.data(), g);
     at[g] = start[g];
     walks[g] = _mm256_cmpgt_epi32(start[g], _mm256_set1_epi32(-1));
   }
@@ -123,33 +147,36 @@ int add_rows(const Rings& rings, const GatherInput& input, const Loader& loader,
 }
 
 // Writes the lanes that are in `wanted` and have a direction; returns those that have none.
-unsigned write_units(Index first, const Vec3<Float8>& sum, unsigned wanted,
+template <class Place>
+unsigned write_units(const Place& place, int g, const Vec3<Float8>& sum, unsigned wanted,
                      const NormalWriter& writer, const Writer8& writer8) noexcept {
   const Float8 square = dot(sum, sum);
   const unsigned good = wanted & static_cast<unsigned>(is_usual(square).lanes());
   const Vec3<Float8> unit = sum * (Float8(1.0f) / square_root(square));
-  if (good == 0xff) [[likely]] {
-    writer8.write(first, unit);
-    return 0;
+  if constexpr (std::is_same_v<Place, InRow>) {
+    if (good == 0xff) [[likely]] {
+      place.write(g, unit, writer8);
+      return 0;
+    }
   }
   const Rows8 rows = to_rows(unit, 0);
   for (int i = 0; i < kLanes; ++i) {
     alignas(16) float xyz[4];
     _mm_store_ps(xyz, rows.row[i]);
-    if ((good >> i & 1) != 0) writer.write(first + i, {xyz[0], xyz[1], xyz[2]});
+    if ((good >> i & 1) != 0) {
+      writer.write(place.vertex(g * kLanes + i), {xyz[0], xyz[1], xyz[2]});
+    }
   }
   return wanted & ~good;
 }
 
-}  // namespace
-
-template <NormalWeight W>
-unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
-                           const GatherInput& input, const NormalWriter& writer) noexcept {
+template <NormalWeight W, class Place>
+unsigned gather_group(const Place& place, unsigned wanted, const TriangleView& mesh,
+                      const GatherInput& input, const NormalWriter& writer) noexcept {
   Rings rings[kGroups];
-  walk(mesh.outgoing.data() + first, mesh, rings);
+  walk(place, mesh, rings);
   unsigned left = 0;
-  const Writer8 writer8(writer, first);
+  const Writer8 writer8(writer, place.vertex(0));
   for (int g = 0; g < kGroups; ++g) {
     sort_rows(rings[g].row);
     Vec3<Float8> sum;
@@ -160,10 +187,24 @@ unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mes
         static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(rings[g].is_left)));
     const unsigned here = wanted >> g * kLanes & 0xff;
     const unsigned simple = here & ~(unusual | large);
-    const unsigned flat = write_units(first + g * kLanes, sum, simple, writer, writer8);
+    const unsigned flat = write_units(place, g, sum, simple, writer, writer8);
     left |= ((here & ~simple) | flat) << g * kLanes;
   }
   return left;
+}
+
+}  // namespace
+
+template <NormalWeight W>
+unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
+                           const GatherInput& input, const NormalWriter& writer) noexcept {
+  return gather_group<W>(InRow{first}, wanted, mesh, input, writer);
+}
+
+template <NormalWeight W>
+unsigned gather_listed_avx2(const Index* ids, unsigned wanted, const TriangleView& mesh,
+                            const GatherInput& input, const NormalWriter& writer) noexcept {
+  return gather_group<W>(Listed{ids}, wanted, mesh, input, writer);
 }
 
 #else
@@ -171,6 +212,12 @@ unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mes
 template <NormalWeight W>
 unsigned gather_group_avx2(Index, unsigned wanted, const TriangleView&, const GatherInput&,
                            const NormalWriter&) noexcept {
+  return wanted;
+}
+
+template <NormalWeight W>
+unsigned gather_listed_avx2(const Index*, unsigned wanted, const TriangleView&, const GatherInput&,
+                            const NormalWriter&) noexcept {
   return wanted;
 }
 
@@ -188,5 +235,18 @@ template unsigned gather_group_avx2<NormalWeight::angle>(Index, unsigned, const 
 template unsigned gather_group_avx2<NormalWeight::max>(Index, unsigned, const TriangleView&,
                                                        const GatherInput&,
                                                        const NormalWriter&) noexcept;
+
+template unsigned gather_listed_avx2<NormalWeight::uniform>(const Index*, unsigned,
+                                                            const TriangleView&, const GatherInput&,
+                                                            const NormalWriter&) noexcept;
+template unsigned gather_listed_avx2<NormalWeight::area>(const Index*, unsigned,
+                                                         const TriangleView&, const GatherInput&,
+                                                         const NormalWriter&) noexcept;
+template unsigned gather_listed_avx2<NormalWeight::angle>(const Index*, unsigned,
+                                                          const TriangleView&, const GatherInput&,
+                                                          const NormalWriter&) noexcept;
+template unsigned gather_listed_avx2<NormalWeight::max>(const Index*, unsigned, const TriangleView&,
+                                                        const GatherInput&,
+                                                        const NormalWriter&) noexcept;
 
 }  // namespace hedgerow::kernels
