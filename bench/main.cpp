@@ -73,6 +73,7 @@ void add_all(const Plan& plan) {
   add_build(plan);
   add_boundary(plan);
   add_normals(plan);
+  add_dirty(plan);
   add_circulate(plan);
   add_query(plan);
   add_validate(plan);

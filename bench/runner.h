@@ -117,6 +117,7 @@ void add_boundary(const Plan& plan);
 void add_buffer(const Plan& plan);
 void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
+void add_dirty(const Plan& plan);
 void add_normals(const Plan& plan);
 void add_query(const Plan& plan);
 void add_reorder(const Plan& plan);
