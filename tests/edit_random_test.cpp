@@ -110,6 +110,7 @@ class Editor {
     if (!mesh_.has(h)) return {h};
     for (int steps = 1 + random_.below(4); steps > 0; --steps) {
       path.push_back(h);
+      if (!mesh_.has(h)) break;
       h = round_vertex(mesh_.view().next(h));
     }
     return path;
