@@ -47,8 +47,8 @@ class MovedVertices {
   std::span<const std::uint64_t> words_;
 };
 
-/// What depends on moved vertices: their faces, and the vertices of these. Kept from frame to frame,
-/// for one mesh; also what a ray tracer has to refit.
+/// What depends on moved vertices: their faces, and the vertices of these. Kept from frame to
+/// frame, for one mesh; also what a ray tracer has to refit.
 ///
 /// Memory     4 bytes a vertex and a face, and a bit; for polygons 4 bytes a face more. Allocated
 ///            once, by the constructor.
@@ -63,8 +63,8 @@ class DirtySet {
   /// finding what could be left out.
   ///
   /// Pre        `mesh` is that of the constructor, unchanged, and sound.
-  /// Complexity O(corners at the moved vertices), on the calling thread; a bitmap O(V / 64) besides.
-  ///            Allocates nothing.
+  /// Complexity O(corners at the moved vertices), on the calling thread; for a bitmap O(V / 64)
+  ///            besides. Allocates nothing.
   /// Errors     index_out_of_range: element = the first entry of the list, or the vertex of the
   ///            bitmap or range, value = the vertex, limit = the vertex count; `count` of them. The
   ///            set is then as it was.

@@ -9,8 +9,8 @@
 
 namespace hedgerow::kernels {
 
-/// A set of numbers that gives back the smallest first: bits, with a bit above for each word that is
-/// not zero, and so on up. Inserting and taking out cost O(log64 size) each. The alternative,
+/// A set of numbers that gives back the smallest first: bits, with a bit above for each word that
+/// is not zero, and so on up. Inserting and taking out cost O(log64 size) each. The alternative,
 /// sorting, needs memory for all that are inserted, however often.
 class IndexSet {
  public:
