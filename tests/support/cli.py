@@ -73,7 +73,17 @@ TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 
 CUBE = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
 THREE_ON_AN_EDGE = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n"
+BAD = THREE_ON_AN_EDGE + "f 1 1 2\nv 9 9 9\n"
 OUT_OF_RANGE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n"
+
+
+# What `inspect` says, in its order.
+INSPECT_FIELDS = [
+    "vertices", "faces", "triangles", "quads", "polygons", "degenerate_faces", "zero_area_faces",
+    "duplicate_faces", "halfedges", "edges", "boundary_edges", "nonmanifold_edges",
+    "inconsistent_edges", "isolated_vertices", "nonmanifold_vertices", "components", "euler",
+    "boundary_loops", "genus", "closed", "manifold", "oriented", "valence", "bytes", "timings_ms",
+    "defects", "defects_total", "digest"]
 
 
 def shuffled_grid(side, seed=7):

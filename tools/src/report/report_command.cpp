@@ -8,8 +8,12 @@
 #include "commands.h"
 #include "failure.h"
 #include "hedgerow/shapes.h"
+#include "report/html.h"
 #include "report/result.h"
 #include "report/stages.h"
+#if HEDGEROW_HAS_RAY
+#include "render/picture.h"
+#endif
 
 namespace hedgerow::tool {
 namespace {
@@ -81,8 +85,8 @@ void measure_stages(Stages& stages, const Subject& subject) {
 }
 
 /// Builds the other meshes and the reference beside ours, and measures on the faces that were kept.
-void measure_mesh(Run& run, Stages& stages, const std::string& path, const BuildOutput& output,
-                  const Buffer<float>& positions) {
+RayFacts measure_mesh(Run& run, Stages& stages, const std::string& path, const BuildOutput& output,
+                      const Buffer<float>& positions) {
   run.progress().step("building the other meshes");
   const Soup soup = kept_soup(output, positions);
   const BuiltMesh built = build_mesh(run, path, soup, Policies{});
@@ -91,7 +95,43 @@ void measure_mesh(Run& run, Stages& stages, const std::string& path, const Build
   const Reference reference(soup);
   baselines::PointerHalfedgeMesh pointer(soup.face_list(), soup.positions());
   baselines::StructHalfedgeMesh structs(soup.face_list(), soup.positions());
-  measure_stages(stages, {soup, built.mesh(), stored.mesh(), reference, pointer, structs});
+  const Subject subject{soup, built.mesh(), stored.mesh(), reference, pointer, structs};
+  measure_stages(stages, subject);
+#if HEDGEROW_HAS_RAY
+  return measure_rays(stages, subject);
+#else
+  return {};
+#endif
+}
+
+/// The PNG file of the mesh; empty without a ray tracer.
+std::string draw_mesh([[maybe_unused]] Run& run, [[maybe_unused]] const std::string& name,
+                      [[maybe_unused]] const BuildOutput& output,
+                      [[maybe_unused]] const MeshFile& file) {
+#if HEDGEROW_HAS_RAY
+  constexpr int kAoRays = 32;
+  RenderOptions options;
+  options.ao_rays = kAoRays;
+  return make_picture(run, name, {output, file.soup.positions()}, kept_soup(output, file.soup.xyz),
+                      Shading::smooth, options)
+      .png;
+#else
+  return {};
+#endif
+}
+
+/// Writes what there is to write into the folder; `result.files` names it, the report itself first.
+Json write_files(ReportResult& result, const std::string& folder, const std::string& png) {
+  const auto path_of = [&](const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
+  result.files = {path_of("report.json"), path_of("report.html")};
+  if (!png.empty()) result.files.push_back(path_of("render.png"));
+  Json json = report_json(result);
+  write_text(path_of("report.json"), json_text(json) + '\n');
+  write_text(path_of("report.html"), report_html(result, png));
+  if (!png.empty()) write_text(path_of("render.png"), png);
+  return json;
 }
 
 ExitStatus report(Run& run, const Arguments& arguments) {
@@ -113,14 +153,12 @@ ExitStatus report(Run& run, const Arguments& arguments) {
 
   Stages stages(run);
   measure_read(stages, input.file(), arguments.folder);
-  measure_mesh(run, stages, input.file().path, built.output, input.file().soup.xyz);
+  result.rays = measure_mesh(run, stages, input.file().path, built.output, input.file().soup.xyz);
   result.stages = stages.stages();
   result.failed = stages.failed();
 
-  const std::string json_path = (std::filesystem::path(arguments.folder) / "report.json").string();
-  result.files = {json_path};
-  const Json json = report_json(result);
-  write_text(json_path, json_text(json) + '\n');
+  const std::string png = draw_mesh(run, input.name(), built.output, input.file());
+  const Json json = write_files(result, arguments.folder, png);
   if (run.is_text()) {
     run.print(report_text(result, run.colour()));
   } else {
@@ -136,14 +174,14 @@ void add_report(Program& program) {
   CLI::App& command = program.add_command(
       "report", "Measure every operation on a mesh, checked and compared",
       "Each answer is checked against a reference before it is timed, on one thread and on all,\n"
-      "beside a pointer-based and an array-of-structs half-edge mesh. Writes DIR/report.json.\n"
-      "Ray stages, report.html and render.png are not in this version.",
+      "beside a pointer-based and an array-of-structs half-edge mesh. Writes DIR/report.json,\n"
+      "DIR/report.html (one file with everything in it) and, with a ray tracer, DIR/render.png.",
       "hedgerow report dragon.ply --out results --threads 2",
       [arguments](Run& run) { return report(run, *arguments); });
   command
       .add_option("IN", arguments->input, fmt::format("Mesh to read; default: {}", kBuiltInName))
       ->type_name("");
-  command.add_option("--out", arguments->folder, "Folder for report.json; made if missing")
+  command.add_option("--out", arguments->folder, "Folder for the files; made if missing")
       ->type_name("DIR")
       ->capture_default_str();
 }

@@ -73,11 +73,13 @@ std::string bandwidth_text(const baselines::Bandwidth& bandwidth, bool colour) {
 
 }  // namespace
 
-const std::vector<std::string>& absent_parts() {
-  static const std::vector<std::string> kParts = {
-      "bvh_build",        "bvh_refit",     "rays_primary", "rays_occlusion",
-      "hit_connectivity", "dirty_normals", "report.html",  "render.png"};
-  return kParts;
+std::vector<std::string> absent_parts() {
+#if HEDGEROW_HAS_RAY
+  return {"dirty_normals"};
+#else
+  return {"bvh_build",        "bvh_refit",     "rays_primary", "rays_occlusion",
+          "hit_connectivity", "dirty_normals", "render.png"};
+#endif
 }
 
 Json report_json(const ReportResult& result) {
@@ -93,7 +95,7 @@ Json report_json(const ReportResult& result) {
   json["mesh_name"] = result.mesh_name;
   json["mesh"] = inspection_json(result.inspection);
   json["stages"] = std::move(stages);
-  json["rays"] = nullptr;
+  json["rays"] = rays_json(result.rays);
   json["absent"] = absent_parts();
   json["failed"] = result.failed;
   json["files"] = result.files;
@@ -112,6 +114,7 @@ std::string report_text(const ReportResult& result, bool colour) {
       "named.\nvs pointer, vs AoS: their time on one thread divided by ours; their vertex normals "
       "include face normals.\n",
       kMinRuns, kMaxRuns);
+  out += rays_text(result.rays);
   out += fmt::format("absent from this version: {}\n", joined(absent_parts()));
   out += fmt::format("wrote {}\n", joined(result.files));
   return out + verdict(result, colour);

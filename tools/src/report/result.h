@@ -6,6 +6,7 @@
 #include "baselines/bandwidth.h"
 #include "inspection.h"
 #include "machine.h"
+#include "report/rays.h"
 #include "report/stage.h"
 
 namespace hedgerow::tool {
@@ -17,12 +18,13 @@ struct ReportResult {
   baselines::Bandwidth bandwidth;
   Inspection inspection;
   std::vector<Stage> stages;
+  RayFacts rays;
   std::vector<std::string> failed;  ///< answers that were wrong, and so were not timed
   std::vector<std::string> files;   ///< written beside the report, and the report itself
 };
 
 /// Stages and files of a full report that this program does not make.
-[[nodiscard]] const std::vector<std::string>& absent_parts();
+[[nodiscard]] std::vector<std::string> absent_parts();
 
 /// The object of CLI.md.
 [[nodiscard]] Json report_json(const ReportResult& result);

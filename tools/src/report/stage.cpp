@@ -36,6 +36,9 @@ const char* mix_name(Mix mix) {
 
 std::string_view group_of(const std::string& name) {
   if (name.find("normals") != std::string::npos) return "normals";
+  if (name.starts_with("bvh_") || name.starts_with("rays_") || name == "hit_connectivity") {
+    return "rays";
+  }
   if (name == "one_ring" || name == "boundary_loops" || name == "components") return "queries";
   return "mesh";
 }
@@ -83,7 +86,7 @@ Json stage_json(const Stage& stage, const Bandwidth& bandwidth) {
 
 std::string stages_text(const std::vector<Stage>& stages, const Bandwidth& bandwidth, bool colour) {
   std::string out;
-  for (const std::string_view group : {"mesh", "normals", "queries"}) {
+  for (const std::string_view group : {"mesh", "normals", "queries", "rays"}) {
     Table table({{std::string(group), Table::Align::left},
                  {"variant", Table::Align::left},
                  {"threads"},

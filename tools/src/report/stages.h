@@ -63,7 +63,7 @@ class Stages {
 };
 
 /// About as many steps as a report on a triangle mesh has.
-inline constexpr int kReportSteps = 52;
+inline constexpr int kReportSteps = 64;
 
 /// `folder` takes a file for the check, which is removed again.
 void measure_read(Stages& stages, const MeshFile& file, const std::string& folder);
