@@ -152,13 +152,13 @@ TEST(RayScene, TakesTheClosedFormOfAMesh) {
 }
 
 /// Lifts the vertices near (x, y) of a height field and returns them.
-std::vector<VertexId> lift(Soup& soup, float x, float y, float radius, float by) {
-  std::vector<VertexId> moved;
+std::vector<Index> lift(Soup& soup, float x, float y, float radius, float by) {
+  std::vector<Index> moved;
   for (Index v = 0; v < soup.vertex_count(); ++v) {
     float* xyz = soup.xyz.data() + 3 * v;
     if ((xyz[0] - x) * (xyz[0] - x) + (xyz[1] - y) * (xyz[1] - y) > radius * radius) continue;
     xyz[2] += by;
-    moved.emplace_back(v);
+    moved.push_back(v);
   }
   return moved;
 }
@@ -170,11 +170,13 @@ TEST(RayScene, FollowsWhatMovedAndRefitsNoOtherPiece) {
   ASSERT_TRUE(pieces && whole);
   EXPECT_EQ(pieces->stats().piece_count, 40);
   EXPECT_EQ(whole->stats().piece_count, 1);
+  DirtySet dirty(subject.mesh);
   for (int frame = 0; frame < 5; ++frame) {
     const auto x = static_cast<float>(20 + 10 * frame);
-    const std::vector<VertexId> moved = lift(subject.soup, x, 50, 4, 10);
-    ASSERT_TRUE(pieces->refit(subject.mesh, moved, Execution::serial()));
-    ASSERT_TRUE(whole->refit(subject.mesh, moved, Execution::serial()));
+    const std::vector<Index> moved = lift(subject.soup, x, 50, 4, 10);
+    ASSERT_TRUE(dirty.find(subject.mesh, MovedVertices::list(moved)));
+    ASSERT_TRUE(pieces->refit(dirty, Execution::serial()));
+    ASSERT_TRUE(whole->refit(dirty, Execution::serial()));
     EXPECT_GT(pieces->refitted_pieces(), 0);
     EXPECT_LT(pieces->refitted_pieces(), 8);
     const auto fresh = build(subject);
@@ -189,8 +191,12 @@ TEST(RayScene, FollowsWhatMovedAndRefitsNoOtherPiece) {
       }
     }
   }
-  ASSERT_TRUE(pieces->refit(subject.mesh, {}, Execution::serial()));
+  ASSERT_TRUE(dirty.find(subject.mesh, MovedVertices::list({})));
+  ASSERT_TRUE(pieces->refit(dirty, Execution::serial()));
   EXPECT_EQ(pieces->refitted_pieces(), 0);
+  ASSERT_TRUE(dirty.find(subject.mesh, MovedVertices::range({0, subject.mesh.vertex_count()})));
+  ASSERT_TRUE(pieces->refit(dirty, Execution::serial()));
+  EXPECT_EQ(pieces->refitted_pieces(), 40);
 }
 
 TEST(RayScene, GoesOverToPositionsElsewhere) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "float3_check.h"
-#include "hedgerow/circulate.h"
 #include "scene_impl.h"
 
 namespace hedgerow::ray {
@@ -201,22 +200,16 @@ Result<void> Scene::refit(const PaddedPositions& positions, const Execution& exe
   return refit(execution);
 }
 
-Result<void> Scene::refit(const Connectivity& mesh, std::span<const VertexId> moved,
-                          const Execution& execution) {
-  // Embree knows whole geometries only: with one piece there is nothing to find out.
-  if (impl_->pieces.size() <= 1) {
-    if (!moved.empty()) return refit(execution);
-    impl_->refitted = 0;
-    return {};
+Result<void> Scene::refit(const DirtySet& dirty, const Execution& execution) {
+  if (dirty.is_all() || (impl_->pieces.size() == 1 && !dirty.faces().empty())) {
+    return refit(execution);
   }
+  impl_->refitted = 0;
+  if (dirty.faces().empty()) return {};
   std::ranges::fill(impl_->touched, std::uint8_t{0});
-  mesh.visit([&](const auto& view) {
-    for (const VertexId v : moved) {
-      for (const FaceId f : incident_faces(view, v)) {
-        impl_->touched[static_cast<std::size_t>(f.value / impl_->piece_size)] = 1;
-      }
-    }
-  });
+  for (const Index f : dirty.faces()) {
+    impl_->touched[static_cast<std::size_t>(f / impl_->piece_size)] = 1;
+  }
   return follow(*impl_, false, execution);
 }
 

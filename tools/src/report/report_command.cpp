@@ -78,6 +78,7 @@ void measure_stages(Stages& stages, const Subject& subject) {
   measure_validate(stages, subject);
   measure_face_normals(stages, subject);
   measure_vertex_normals(stages, subject);
+  measure_dirty_normals(stages, subject);
   measure_one_ring(stages, subject);
   measure_boundary_loops(stages, subject);
   measure_components(stages, subject);

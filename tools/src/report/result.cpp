@@ -75,10 +75,10 @@ std::string bandwidth_text(const baselines::Bandwidth& bandwidth, bool colour) {
 
 std::vector<std::string> absent_parts() {
 #if HEDGEROW_HAS_RAY
-  return {"dirty_normals"};
+  return {};
 #else
-  return {"bvh_build",        "bvh_refit",     "rays_primary", "rays_occlusion",
-          "hit_connectivity", "dirty_normals", "render.png"};
+  return {"bvh_build",      "bvh_refit",        "rays_primary",
+          "rays_occlusion", "hit_connectivity", "render.png"};
 #endif
 }
 
@@ -115,7 +115,9 @@ std::string report_text(const ReportResult& result, bool colour) {
       "include face normals.\n",
       kMinRuns, kMaxRuns);
   out += rays_text(result.rays);
-  out += fmt::format("absent from this version: {}\n", joined(absent_parts()));
+  if (const auto absent = absent_parts(); !absent.empty()) {
+    out += fmt::format("absent from this version: {}\n", joined(absent));
+  }
   out += fmt::format("wrote {}\n", joined(result.files));
   return out + verdict(result, colour);
 }

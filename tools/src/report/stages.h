@@ -71,6 +71,8 @@ void measure_build(Stages& stages, const Subject& subject);
 void measure_validate(Stages& stages, const Subject& subject);
 void measure_face_normals(Stages& stages, const Subject& subject);
 void measure_vertex_normals(Stages& stages, const Subject& subject);
+/// After a hundredth of the vertices have moved.
+void measure_dirty_normals(Stages& stages, const Subject& subject);
 void measure_one_ring(Stages& stages, const Subject& subject);
 void measure_boundary_loops(Stages& stages, const Subject& subject);
 void measure_components(Stages& stages, const Subject& subject);

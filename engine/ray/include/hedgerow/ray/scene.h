@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "hedgerow/buffer.h"
 #include "hedgerow/connectivity.h"
+#include "hedgerow/dirty_normals.h"
 #include "hedgerow/execution.h"
 #include "hedgerow/positions.h"
 #include "hedgerow/ray/ray.h"
@@ -126,14 +126,12 @@ class Scene {
   /// The same, and the positions are elsewhere from now on, e.g. in the other of two buffers.
   /// Errors: those of `build`, with nothing changed.
   [[nodiscard]] Result<void> refit(const PaddedPositions& positions, const Execution& execution);
-  /// Follows positions of which only those of `moved` have changed: refits the pieces with a face
-  /// at one of them, and the tree above.
+  /// Follows positions of which only those have changed that `dirty` was found for: refits the
+  /// pieces with a dirty face, and the tree above. Embree cannot refit less than a piece.
   ///
-  /// Pre        `mesh` is the one that the scene was built from; `moved` are vertices of it, in any
-  ///            order, repeats allowed.
-  /// Complexity O(faces at `moved` + faces of their pieces + pieces).
-  [[nodiscard]] Result<void> refit(const Connectivity& mesh, std::span<const VertexId> moved,
-                                   const Execution& execution);
+  /// Pre        `dirty` is of the mesh that the scene was built from.
+  /// Complexity O(dirty faces + faces of their pieces + pieces).
+  [[nodiscard]] Result<void> refit(const DirtySet& dirty, const Execution& execution);
   /// Builds all trees anew, as after a deformation that boxes no longer fit well.
   [[nodiscard]] Result<void> rebuild(const Execution& execution);
 
