@@ -4,10 +4,10 @@ namespace hedgerow::tool {
 
 /// Colours are named once for light and once for dark; paper is always light.
 inline constexpr const char* kReportStyle = R"css(
-:root{color-scheme:light dark;--paper:#fbfbfa;--card:#fff;--ink:#1d2430;--soft:#5d6878;--line:#e2e5ea;
---accent:#2f6f4f;--bar:#4a9a72;--bar2:#b9c3d0;--good:#2f7d4f;--bad:#b3261e}
-@media (prefers-color-scheme:dark){:root{--paper:#14171c;--card:#1b2027;--ink:#e6e9ee;--soft:#98a3b3;
---line:#2c333d;--accent:#7fd0a4;--bar:#58b287;--bar2:#4d5866;--good:#7fd0a4;--bad:#ff8a80}}
+:root{color-scheme:light dark;--paper:#fbfbfa;--card:#fff;--ink:#1d2430;--soft:#5d6878;
+--line:#e2e5ea;--bar:#4a9a72;--bar2:#b9c3d0;--good:#2f7d4f;--bad:#b3261e}
+@media (prefers-color-scheme:dark){:root{--paper:#14171c;--card:#1b2027;--ink:#e6e9ee;
+--soft:#98a3b3;--line:#2c333d;--bar:#58b287;--bar2:#4d5866;--good:#7fd0a4;--bad:#ff8a80}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--paper);color:var(--ink);
 font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif}
@@ -33,7 +33,7 @@ align-items:center;font-size:.88rem}
 .plot i{font-style:normal;text-align:right;font-variant-numeric:tabular-nums}
 .bar{fill:var(--bar)}.bar2{fill:var(--bar2)}.axis{stroke:var(--line);stroke-width:.3}
 @media (max-width:34rem){body{font-size:15px}.plot{grid-template-columns:6.5rem 1fr 3.6rem}}
-@media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#bbb;--accent:#000;
+@media print{:root{--paper:#fff;--card:#fff;--ink:#000;--soft:#444;--line:#bbb;
 --bar:#4a9a72;--bar2:#bbb;--good:#000;--bad:#000}body{font-size:10pt}main{max-width:none;padding:0}
 .wide{overflow:visible;border:0}table{font-size:7.5pt}th,td{padding:.15rem .3rem}
 h2{break-after:avoid}.plot,tr,img{break-inside:avoid}

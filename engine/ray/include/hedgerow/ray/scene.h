@@ -139,8 +139,8 @@ class Scene {
   [[nodiscard]] PrimitiveMap primitives() const noexcept;
   /// Pieces whose vertices the last refit looked at: all of them unless it was told what moved.
   [[nodiscard]] std::int64_t refitted_pieces() const noexcept;
-  /// Whether the last of `build`, `refit` and `rebuild` built the tree of some piece. Pieces of up to
-  /// four faces have none: Embree puts them into the tree above.
+  /// Whether the last of `build`, `refit` and `rebuild` built the tree of some piece. Pieces of up
+  /// to four faces have none: Embree puts them into the tree above.
   [[nodiscard]] bool has_built() const noexcept;
 
   /// The first face on the ray, from either side. A ray with a NaN meets nothing.
