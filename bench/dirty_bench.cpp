@@ -114,9 +114,9 @@ void add_dirty(const Plan& plan) {
       {"full", all}, {"blob1", blob}, {"scatter1", scattered}};
   for (const DatasetKey& key : plan.large) {
     for (const int threads : plan.threads) {
-      for (const auto& [variant, moved] : kVariants) {
-        add({"dirty_normals", key, threads, variant,
-             [moved](const Dataset& data, const Execution& execution) {
+      for (const auto& variant : kVariants) {
+        add({"dirty_normals", key, threads, variant.first,
+             [moved = variant.second](const Dataset& data, const Execution& execution) {
                return prepare(data, execution, moved);
              },
              no_traffic, Mix::triad});

@@ -58,6 +58,9 @@ Work prepare_normals(const Dataset& data, const RepresentationKind& kind) {
   return work;
 }
 
+/// What a mesh that was just built is asked: every pair counts.
+constexpr Question kBuildCheck = Question::edge_faces;
+
 Work prepare_build(const Dataset& data, const RepresentationKind& kind) {
   const auto mesh = std::make_shared<std::unique_ptr<Representation>>();
   Work work;
@@ -68,12 +71,12 @@ Work prepare_build(const Dataset& data, const RepresentationKind& kind) {
     mesh->reset();
     malloc_trim(0);
   };
-  const Question check = Question::edge_faces;
-  work.check = [&data, &kind, mesh, check] {
-    return (*mesh)->answer(check) == expected_answer(data, check, kind.is_closed) ? ""
-                                                                                  : kOtherAnswer;
+  work.check = [&data, &kind, mesh] {
+    return (*mesh)->answer(kBuildCheck) == expected_answer(data, kBuildCheck, kind.is_closed)
+               ? ""
+               : kOtherAnswer;
   };
-  work.digest = [mesh, check] { return (*mesh)->answer(check).value_or(0); };
+  work.digest = [mesh] { return (*mesh)->answer(kBuildCheck).value_or(0); };
   work.notes = [&data, mesh]() -> Notes {
     const double edges = question_elements(data, Question::euler);
     const auto bytes = static_cast<double>((*mesh)->bytes());

@@ -156,9 +156,9 @@ Result<Scene> Scene::build(const Device& device, const Connectivity& mesh,
                            const PaddedPositions& positions, const SceneOptions& options,
                            const Execution& execution) {
   if (auto ok = check_positions(positions, mesh.vertex_count()); !ok) return fail(ok.error());
-  if (mesh.vertex_count() > kMaxEmbreeCount || mesh.face_count() > kMaxEmbreeCount) {
-    return fail({ErrorCode::too_many_elements, kInvalidIndex,
-                 std::max<std::int64_t>(mesh.vertex_count(), mesh.face_count()), kMaxEmbreeCount});
+  const auto largest_count = std::max<std::int64_t>(mesh.vertex_count(), mesh.face_count());
+  if (largest_count > kMaxEmbreeCount) {
+    return fail({ErrorCode::too_many_elements, kInvalidIndex, largest_count, kMaxEmbreeCount});
   }
   Result<Primitives> primitives = make_primitives(mesh, positions.positions);
   if (!primitives) return fail(primitives.error());

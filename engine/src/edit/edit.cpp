@@ -258,8 +258,9 @@ std::vector<Index> Change::changed(Element element) const {
   for (const Write& write : writes) {
     if (element_of(write.column) == element && write.index < old_count) ids.push_back(write.index);
   }
-  std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  std::sort(ids.begin(), ids.end());
+  // Not std::ranges: clang 14 cannot compile a subrange of the gcc 12 library.
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::erase_if(ids, [&](Index id) {
     return std::ranges::any_of(
         deaths, [&](const Death& death) { return death.element == element && death.id == id; });
