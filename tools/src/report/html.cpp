@@ -212,8 +212,8 @@ std::string tiles(const ReportResult& result, const std::vector<const Stage*>& s
        {"one_ring", "a one-ring"},
        {"hit_connectivity", "normal and ring at a hit"}}};
   for (const auto& [name, label] : kShown) {
-    const auto found = std::ranges::find_if(stages, [&](const Stage* stage) {
-      return stage->name == name && (stage->variant != "uniform");
+    const auto found = std::ranges::find_if(stages, [wanted = name](const Stage* stage) {
+      return stage->name == wanted && stage->variant != "uniform";
     });
     if (found == stages.end()) continue;
     out += fmt::format("<div class=\"tile\"><b>{} ns</b><span>{}</span></div>\n",
