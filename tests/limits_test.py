@@ -4,7 +4,9 @@
 usage: limits_test.py BENCH
 """
 
+import contextlib
 import copy
+import io
 import json
 import os
 import pathlib
@@ -157,6 +159,16 @@ class Counting(Folder):
         self.assertEqual(ran.returncode, limits.SKIPPED)
         self.assertIn("valgrind", ran.stdout)
         self.assertFalse(out.exists())
+
+    def test_needs_avx2(self):
+        self.addCleanup(setattr, limits, "has_avx2", limits.has_avx2)
+        self.addCleanup(setattr, limits.shutil, "which", limits.shutil.which)
+        limits.has_avx2, limits.shutil.which = (lambda: False), (lambda name: name)
+        out = io.StringIO()
+        with self.assertRaises(SystemExit) as ended, contextlib.redirect_stdout(out):
+            limits.counted(BENCH, 1)
+        self.assertEqual(ended.exception.code, limits.SKIPPED)
+        self.assertIn("AVX2", out.getvalue())
 
     def test_of_another_kind_of_build_says_nothing(self):
         program = self.folder / "program"
