@@ -1,0 +1,1 @@
+"""What a run is made of: configuration, measurements, report. Pure functions."""

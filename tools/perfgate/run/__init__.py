@@ -1,0 +1,1 @@
+"""Starting the programs that are compared, and keeping their times."""

@@ -1,0 +1,1 @@
+"""Exact statistics on plain lists of numbers."""
