@@ -77,7 +77,7 @@ void apply(const Change& change, Element element, std::vector<T>& values) {
 
 /// The values of what `compact` kept, in the new order. `map[old]` is the new number.
 template <class Id, class T>
-[[nodiscard]] std::vector<T> apply(const std::vector<Id>& map, const std::vector<T>& values) {
+[[nodiscard]] std::vector<T> compacted(const std::vector<Id>& map, const std::vector<T>& values) {
   Index count = 0;
   for (const Id id : map) count = id.value < count ? count : id.value + 1;
   std::vector<T> kept(static_cast<std::size_t>(count));
