@@ -64,18 +64,25 @@ class CgalMesh final : public MeasuredMesh {
   [[nodiscard]] std::vector<float> vertex_normals() const override { return {}; }
 
   void fill_one_ring_sums(std::span<std::uint32_t> sums) const override {
-    for (const Mesh::Vertex_index v : mesh_.vertices()) {
-      std::uint32_t sum = 0;
-      if (!mesh_.is_isolated(v)) {
-        for (const Mesh::Vertex_index neighbour : mesh_.vertices_around_target(mesh_.halfedge(v))) {
-          sum += neighbour.idx();
-        }
-      }
-      sums[v.idx()] = sum;
+    for (const Mesh::Vertex_index v : mesh_.vertices()) sums[v.idx()] = ring_sum(v);
+  }
+  void fill_one_ring_sums_at(std::span<const Index> vertices,
+                             std::span<std::uint32_t> sums) const override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      sums[i] = ring_sum(Mesh::Vertex_index(static_cast<Mesh::size_type>(vertices[i])));
     }
   }
 
  private:
+  [[nodiscard]] std::uint32_t ring_sum(Mesh::Vertex_index v) const {
+    std::uint32_t sum = 0;
+    if (mesh_.is_isolated(v)) return sum;
+    for (const Mesh::Vertex_index neighbour : mesh_.vertices_around_target(mesh_.halfedge(v))) {
+      sum += neighbour.idx();
+    }
+    return sum;
+  }
+
   Mesh mesh_;
   FaceList faces_;
 };

@@ -33,6 +33,12 @@ class MeasuredMesh {
   /// sums[v] = sum of the ids of v's neighbours, modulo 2^32, by the library's circulator.
   virtual void fill_one_ring_sums(std::span<std::uint32_t> sums) const = 0;
 
+  /// sums[i] = the same sum for vertices[i]; the peer libraries only.
+  virtual void fill_one_ring_sums_at(std::span<const Index> /*vertices*/,
+                                     std::span<std::uint32_t> /*sums*/) const {}
+  /// Takes over other positions of the same vertices; the peer libraries with normals only.
+  virtual void move_to(Positions /*positions*/) {}
+
   /// Connected components, isolated vertices left out; the baselines only.
   [[nodiscard]] virtual Index component_count() const { return kInvalidIndex; }
 };

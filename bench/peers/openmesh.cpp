@@ -77,16 +77,29 @@ class OpenMeshMesh final : public MeasuredMesh {
   }
 
   void fill_one_ring_sums(std::span<std::uint32_t> sums) const override {
+    for (const auto v : mesh_.vertices()) sums[static_cast<std::size_t>(v.idx())] = ring_sum(v);
+  }
+  void fill_one_ring_sums_at(std::span<const Index> vertices,
+                             std::span<std::uint32_t> sums) const override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      sums[i] = ring_sum(OpenMesh::VertexHandle(static_cast<int>(vertices[i])));
+    }
+  }
+  void move_to(Positions positions) override {
     for (const auto v : mesh_.vertices()) {
-      std::uint32_t sum = 0;
-      for (auto neighbour = mesh_.cvv_begin(v); neighbour.is_valid(); ++neighbour) {
-        sum += static_cast<std::uint32_t>(neighbour->idx());
-      }
-      sums[static_cast<std::size_t>(v.idx())] = sum;
+      const float* p = positions[static_cast<Index>(v.idx())];
+      mesh_.set_point(v, {p[0], p[1], p[2]});
     }
   }
 
  private:
+  [[nodiscard]] std::uint32_t ring_sum(OpenMesh::VertexHandle v) const {
+    std::uint32_t sum = 0;
+    for (auto neighbour = mesh_.cvv_begin(v); neighbour.is_valid(); ++neighbour) {
+      sum += static_cast<std::uint32_t>(neighbour->idx());
+    }
+    return sum;
+  }
   static void append(const OpenMesh::Vec3f& normal, std::vector<float>& out) {
     out.insert(out.end(), {normal[0], normal[1], normal[2]});
   }
