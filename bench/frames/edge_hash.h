@@ -9,7 +9,8 @@
 namespace hedgerow::bench {
 
 /// What a ray tracer's user writes who has index arrays and wants neighbours: a hash map from each
-/// directed edge to its half-edge. Rings are found by asking it for the opposite edge, step by step.
+/// directed edge to its half-edge. A ring is found by asking it for the opposite edge, step by
+/// step.
 ///
 /// Triangles only; an edge that two faces run the same way keeps one of them.
 class EdgeHash {
