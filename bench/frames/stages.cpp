@@ -185,10 +185,10 @@ void measure_rays(Rows& rows, const Subject& subject, const FrameOptions& option
   const std::vector<ray::Vec3> points = random_points(subject, 20'000);
   for (const auto& [radius, name] :
        {std::pair{0.01F * subject.diagonal, "radius 1%"}, std::pair{1e30F, "any radius"}}) {
-    ms = best_ms(1, [&] {
+    ms = best_ms(1, [&, reach = radius] {
       met = 0;
       for (const ray::Vec3& point : points)
-        met += scene->closest_point(point, radius).valid() ? 1 : 0;
+        met += scene->closest_point(point, reach).valid() ? 1 : 0;
     });
     add("closest point", name, std::ssize(points), ms, met);
   }
