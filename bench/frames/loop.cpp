@@ -27,6 +27,9 @@ namespace hedgerow::bench {
 namespace {
 
 constexpr std::int64_t kWarmUp = 2;
+// Embree allocates two objects more at the first commit of each thread, and TBB may hand a thread
+// its first one in any frame.
+constexpr std::int64_t kFirstCommits = 8;
 
 enum Part : std::size_t { kDeform, kNormals, kRefit, kRays, kHits, kParts };
 constexpr std::array<const char*, kParts> kPartNames = {"deform", "normals", "refit", "rays",
@@ -252,7 +255,9 @@ class FrameStages {
         static_cast<double>(memory.allocations) / static_cast<double>(options_.frames);
     rows_.add({"S6", what, "allocations", per_frame, "a frame",
                fmt::format("{} of them Embree's name for each commit", commits)});
-    if (per_frame > commits) rows_.fail("S6: a frame allocates: " + what);
+    if (memory.allocations > options_.frames * commits + kFirstCommits) {
+      rows_.fail("S6: a frame allocates: " + what);
+    }
   }
 
   void finish(FrameBuffers& buffers, bool is_all) {
