@@ -1,6 +1,7 @@
 // What hedgerow::ray relies on, asked of the installed Embree itself. Where one of these fails, the
 // sentence in its name no longer holds, and the code that quotes it has to change.
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -13,12 +14,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-#include <tbb/task_scheduler_observer.h>
 
 #include "embree_api.h"
 #include "hedgerow/shapes.h"
 #include "support/allocations.h"
 #include "support/guarded.h"
+#include "support/worker_count.h"
 
 namespace hedgerow {
 namespace {
@@ -257,17 +258,6 @@ TEST(EmbreeFacts, AMovingSceneIsRefittedUntilItsIndicesAreCalledNew) {
   EXPECT_GT(progress, build_progress);
 }
 
-/// Counts the threads that TBB lends to any arena of the process.
-class Observer : public tbb::task_scheduler_observer {
- public:
-  Observer() { observe(true); }
-  ~Observer() override { observe(false); }
-  void on_scheduler_entry(bool is_worker) override {
-    if (is_worker) ++workers;
-  }
-  std::atomic<int> workers = 0;
-};
-
 TEST(EmbreeFacts, ACommitStaysInTheArenaThatItIsCalledIn) {
   const Soup soup = *shapes::icosphere(6);
   const std::vector<std::uint32_t> corners = corners_of(soup);
@@ -276,9 +266,9 @@ TEST(EmbreeFacts, ACommitStaysInTheArenaThatItIsCalledIn) {
     embree.share_vertices(soup.xyz.data(), static_cast<std::size_t>(soup.vertex_count()));
     embree.share_faces(corners.data(), corners.size() / 3);
     tbb::task_arena alone(1);
-    const Observer observer;
+    const int before = test::worker_entries();
     alone.execute([&] { embree.commit(); });
-    EXPECT_EQ(observer.workers, 0);
+    EXPECT_EQ(test::worker_entries(), before);
     EXPECT_TRUE(embree.meets(0.2F, 0.2F));
   }
 }

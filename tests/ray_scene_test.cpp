@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <tbb/task_scheduler_observer.h>
 
 #include "hedgerow/boundary.h"
 #include "hedgerow/ray/scene.h"
@@ -13,6 +12,7 @@
 #include "support/guarded.h"
 #include "support/ray_cases.h"
 #include "support/threads.h"
+#include "support/worker_count.h"
 
 namespace hedgerow {
 namespace {
@@ -256,20 +256,9 @@ TEST(RayScene, BuildsAStillSceneAnewWhenItMoves) {
   EXPECT_NEAR(height(*scene, 0.1F, 0.1F), 2, 0.1);
 }
 
-/// Counts the threads that TBB lends to any arena of the process.
-class Observer : public tbb::task_scheduler_observer {
- public:
-  Observer() { observe(true); }
-  ~Observer() override { observe(false); }
-  void on_scheduler_entry(bool is_worker) override {
-    if (is_worker) ++workers;
-  }
-  std::atomic<int> workers = 0;
-};
-
 TEST(RayScene, UsesTheCallingThreadAloneWhenToldSo) {
   const RayMesh subject = sphere(6);
-  const Observer observer;
+  const int before = test::worker_entries();
   auto scene = build(subject, {.motion = Motion::moving});
   ASSERT_TRUE(scene);
   ASSERT_TRUE(scene->refit(Execution::serial()));
@@ -277,7 +266,7 @@ TEST(RayScene, UsesTheCallingThreadAloneWhenToldSo) {
     body(user, 0, count);
   };
   ASSERT_TRUE(scene->rebuild(Execution::callback(loop, nullptr, 2)));
-  EXPECT_EQ(observer.workers, 0);
+  EXPECT_EQ(test::worker_entries(), before);
 }
 
 TEST(RayScene, MeetsTheSameAtTheSameDistanceWhateverTheThreads) {
