@@ -69,8 +69,9 @@ class Painter {
     Vec3 sum{};
     for (std::size_t i = 0; i < 8; ++i) {
       const Vec3 way = {packet.direction[0][i], packet.direction[1][i], packet.direction[2][i]};
-      const auto seed =
-          static_cast<std::uint32_t>((y * options_.width + x) * 8) + static_cast<std::uint32_t>(i);
+      // Wraps round in pictures of 2^29 pixels and more: seeds may come twice.
+      const auto seed = static_cast<std::uint32_t>((std::int64_t{y} * options_.width + x) * 8 +
+                                                   static_cast<std::int64_t>(i));
       const float px = static_cast<float>(x) + kSamples[i][0];
       const float py = static_cast<float>(y) + kSamples[i][1];
       sum = sum + (hits[i].valid() ? surface(hits[i], way, px, py, seed)
