@@ -28,6 +28,13 @@ def run(*arguments, **options):
     return result.returncode, result.stdout.decode(), result.stderr.decode(errors="replace")
 
 
+def index_bits():
+    """Of the program, by its own word."""
+    status, out, _err = run("--version")
+    assert status == 0
+    return int(re.search(r"^indices +(\d+) bits$", out, re.MULTILINE).group(1))
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own, and words for what the program does."""
 
