@@ -11,7 +11,7 @@ PREFIX = "represent_"
 # Columns, with the header of each.
 KINDS = {"flat": "flat", "flat-stored": "flat, stored", "flat-closed": "flat, closed",
          "radial": "flat + radial", "directed-edge": "directed edge", "corner-table": "corner table",
-         "dcel": "DCEL", "split-edge": "split edge", "winged-tables": "winged tables",
+         "adjacency": "adjacency", "dcel": "DCEL", "split-edge": "split edge", "winged-tables": "winged tables",
          "nonmanifold": "non-manifold", "pointer-half": "pointer half-edge",
          "pointer-winged": "pointer winged"}
 # Rows: what is asked, and of what.

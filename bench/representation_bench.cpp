@@ -89,24 +89,19 @@ Work prepare_build(const Dataset& data, const RepresentationKind& kind) {
 
 void add_rows(const DatasetKey& key, const RepresentationKind& kind) {
   const auto no_traffic = [](const Dataset&) { return Traffic{}; };
-  const bool is_radial = kind.name == std::string_view("radial");
-  const bool is_table = kind.name == std::string_view("nonmanifold");
   add({"represent_build", key, 1, kind.name,
        [&kind](const Dataset& data, const Execution&) { return prepare_build(data, kind); },
        no_traffic, Mix::read});
   for (std::size_t i = 0; i < kQuestionCount; ++i) {
     const auto question = static_cast<Question>(i);
-    // The cycles answer one question that the columns do not; rows have no rotation.
-    const bool is_rotation =
-        question == Question::ring_halfedges || question == Question::ring_reversed;
-    if ((is_radial && question != Question::edge_faces) || (is_table && is_rotation)) continue;
+    if (!is_asked(kind, question)) continue;
     add({"represent_" + std::string(name(question)), key, 1, kind.name,
          [&kind, question](const Dataset& data, const Execution&) {
            return prepare_question(data, kind, question);
          },
          no_traffic, Mix::read});
   }
-  if (is_radial) return;
+  if (!has_vertex_normals(kind)) return;
   add({"represent_vertex_normals", key, 1, kind.name,
        [&kind](const Dataset& data, const Execution&) { return prepare_normals(data, kind); },
        no_traffic, Mix::read});

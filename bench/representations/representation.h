@@ -55,13 +55,27 @@ class Representation {
   [[nodiscard]] virtual std::vector<float> vertex_normals() const = 0;
 };
 
+/// Which questions a representation is asked.
+enum class Asked : std::uint8_t {
+  everything,
+  all_but_rotations,   ///< its rows of a vertex are in no order
+  of_edge_faces,       ///< all other answers are those of the columns that it extends
+  of_what_lies_beside  ///< it has no vertices
+};
+
 struct RepresentationKind {
   const char* name;
   /// Whether it has half-edges without a face along the boundary.
   bool is_closed;
+  Asked asked;
   /// From triangles, on one thread: the whole way from the list.
   std::unique_ptr<Representation> (*build)(const FaceList& faces, Positions positions);
 };
+
+[[nodiscard]] bool is_asked(const RepresentationKind& kind, Question question) noexcept;
+[[nodiscard]] inline bool has_vertex_normals(const RepresentationKind& kind) noexcept {
+  return kind.asked == Asked::everything || kind.asked == Asked::all_but_rotations;
+}
 
 /// All of them, as the table shows them.
 [[nodiscard]] std::span<const RepresentationKind> representation_kinds();
@@ -75,6 +89,7 @@ std::unique_ptr<Representation> build_directed_edge(const FaceList& faces, Posit
 std::unique_ptr<Representation> build_corner_tables(const FaceList& faces, Positions positions);
 std::unique_ptr<Representation> build_dcel_records(const FaceList& faces, Positions positions);
 std::unique_ptr<Representation> build_split_edge(const FaceList& faces, Positions positions);
+std::unique_ptr<Representation> build_adjacency_only(const FaceList& faces, Positions positions);
 std::unique_ptr<Representation> build_winged_tables(const FaceList& faces, Positions positions);
 std::unique_ptr<Representation> build_nonmanifold(const FaceList& faces, Positions positions);
 std::unique_ptr<Representation> build_pointer_half(const FaceList& faces, Positions positions);

@@ -14,8 +14,8 @@
 
 namespace hedgerow::bench {
 
-/// Steps on any `Topology`, by number.
-template <Topology View, bool is_closed>
+/// Steps on any `Topology`, by number; on a `FaceTopology`, those that need no vertex.
+template <FaceTopology View, bool is_closed>
 class TopologyWalk {
  public:
   using Handle = HalfedgeId;

@@ -30,24 +30,38 @@ class Walked {
     switch (question) {
       case Question::face_vertices:
       case Question::face_edges:
-      case Question::face_faces:
-      case Question::face_neighbours:
-      case Question::is_boundary_face:
-        return of_faces(question);
-      case Question::face_degree:
-        return of_degrees();
+        return of_corners(question);
       case Question::ring_halfedges:
       case Question::ring_reversed:
       case Question::ring_vertices:
       case Question::ring_faces:
       case Question::is_boundary_vertex:
         return of_vertices(question);
+      case Question::boundary_loop:
+        return sum_loop();
+      case Question::components:
+        return count_components();
+      case Question::euler:
+        return euler();
+      case Question::genus:
+        return (2 * count_components() - count_loops() - euler()) / 2;
+      default:
+        return answer_without_vertices(question);
+    }
+  }
+  /// What of the above takes no origin, target, vertex_count, outgoing or position.
+  [[nodiscard]] std::uint64_t answer_without_vertices(Question question) const {
+    switch (question) {
+      case Question::face_degree:
+        return of_degrees();
       case Question::edge_faces:
       case Question::is_boundary_half:
       case Question::is_boundary_edge:
         return of_edges(question);
+      case Question::boundary_loops:
+        return count_loops();
       default:
-        return of_mesh(question);
+        return of_faces(question);
     }
   }
 
@@ -87,13 +101,15 @@ class Walked {
     }
     return total;
   }
+  [[nodiscard]] std::uint64_t of_corners(Question question) const {
+    if (question == Question::face_vertices) {
+      return sum_over_faces([&](Handle h) { return as_number(walk_.origin(h)); });
+    }
+    return sum_over_faces(
+        [&](Handle h) { return as_number(walk_.origin(h)) ^ as_number(walk_.target(h)); });
+  }
   [[nodiscard]] std::uint64_t of_faces(Question question) const {
     switch (question) {
-      case Question::face_vertices:
-        return sum_over_faces([&](Handle h) { return as_number(walk_.origin(h)); });
-      case Question::face_edges:
-        return sum_over_faces(
-            [&](Handle h) { return as_number(walk_.origin(h)) ^ as_number(walk_.target(h)); });
       case Question::face_faces:
         return sum_over_faces([&](Handle h) {
           const Handle across = walk_.opposite(h);
@@ -257,20 +273,6 @@ class Walked {
     for (Index v = 0; v < walk_.vertex_count(); ++v) sum += walk_.is_valid(walk_.outgoing(v));
     walk_.for_each_edge([&](Handle) { --sum; });
     return sum;
-  }
-  [[nodiscard]] std::uint64_t of_mesh(Question question) const {
-    switch (question) {
-      case Question::boundary_loop:
-        return sum_loop();
-      case Question::boundary_loops:
-        return count_loops();
-      case Question::components:
-        return count_components();
-      case Question::euler:
-        return euler();
-      default:
-        return (2 * count_components() - count_loops() - euler()) / 2;
-    }
   }
 
   const Walk& walk_;
