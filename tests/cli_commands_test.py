@@ -285,5 +285,31 @@ class Repair(ProgramTest):
             self.assertIn(word, out)
 
 
+class Subdivide(ProgramTest):
+    def test_a_cube_is_refined_and_counted(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        out = self.path("b.ply")
+        report = self.json("subdivide", mesh, out, "--scheme", "catmull-clark", "--levels", "2")
+        self.assertEqual((report["scheme"], report["levels"]), ("catmull-clark", 2))
+        self.assertEqual(report["before"], {"vertices": 8, "faces": 6, "halfedges": 24})
+        self.assertEqual(report["after"], {"vertices": 98, "faces": 96, "halfedges": 384})
+        found = self.json("inspect", out)
+        self.assertEqual((found["vertices"], found["quads"], found["euler"]), (98, 96, 2))
+
+    def test_triangle_schemes_refuse_quads(self):
+        for scheme in ("loop", "sqrt3"):
+            self.fails(3, "subdivide", self.file("a.obj", cli.CUBE), self.path("b.ply"),
+                       "--scheme", scheme, "--levels", "1")
+            self.assertFalse(os.path.exists(self.path("b.ply")))
+            self.done("subdivide", self.file("a.obj", cli.TETRAHEDRON), self.path("c.ply"),
+                      "--scheme", scheme, "--levels", "1")
+
+    def test_wrong_levels_and_schemes_are_usage(self):
+        mesh = self.file("a.obj", cli.TETRAHEDRON)
+        self.fails(2, "subdivide", mesh, self.path("b.ply"), "--scheme", "loop", "--levels", "-1")
+        self.fails(2, "subdivide", mesh, self.path("b.ply"), "--scheme", "butterfly")
+        self.fails(2, "subdivide", mesh, self.path("b.ply"))
+
+
 if __name__ == "__main__":
     cli.main(sys.argv)

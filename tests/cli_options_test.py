@@ -13,7 +13,8 @@ import unittest
 from support import cli
 from support.cli import ProgramTest
 
-COMMANDS = ("inspect", "report", "normals", "render", "convert", "generate", "reorder", "repair")
+COMMANDS = ("inspect", "report", "normals", "render", "convert", "generate", "reorder", "repair",
+            "subdivide")
 
 
 def commands():

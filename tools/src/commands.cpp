@@ -13,6 +13,7 @@ void add_commands(Program& program) {
   add_generate(program);
   add_reorder(program);
   add_repair(program);
+  add_subdivide(program);
 }
 
 }  // namespace hedgerow::tool

@@ -12,6 +12,7 @@ void add_render(Program& program);  ///< defined only with HEDGEROW_HAS_RAY
 void add_reorder(Program& program);
 void add_repair(Program& program);
 void add_report(Program& program);
+void add_subdivide(Program& program);
 
 /// All commands, in the order of the help.
 void add_commands(Program& program);

@@ -8,35 +8,13 @@
 #include "parallel/parallel.h"
 #include "represent/forms.h"
 #include "represent/record_ids.h"
+#include "triangle_mesh.h"
 
 namespace hedgerow {
 
 namespace {
 
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
-// The smallest face that is no triangle, as an error.
-Result<void> check_triangles(const Connectivity& mesh) {
-  if (mesh.is_triangle_mesh()) return {};
-  const PolygonView view = mesh.polygons();
-  Error error{ErrorCode::not_triangles, kInvalidIndex, 0, 3, 0};
-  for (Index f = view.face_count(); f-- > 0;) {
-    if (view.degree(FaceId(f)) == 3) continue;
-    error.element = f;
-    error.value = view.degree(FaceId(f));
-    ++error.count;
-  }
-  if (error.count > 0) return fail(error);
-  return {};
-}
-
-// The default form of a triangle mesh whose columns are only known to be triangles if all of its
-// faces are: `polygons()` of such a mesh is renamed to arithmetic.
-TriangleView triangles_of(const Connectivity& mesh) {
-  if (mesh.is_implicit()) return mesh.triangles();
-  const PolygonView view = mesh.polygons();
-  return {view.origin, view.opposite, view.outgoing, view.fans};
-}
 
 Result<void> check_threes(std::size_t count) {
   if (count % 3 == 0) return {};
@@ -47,10 +25,10 @@ Result<void> check_threes(std::size_t count) {
 }  // namespace
 
 Result<CornerTable> build_corner_table(const Connectivity& mesh, const Execution& execution) {
-  if (const Result<void> all = check_triangles(mesh); !all) return fail(all.error());
+  if (const Result<void> all = detail::check_triangles(mesh); !all) return fail(all.error());
   return detail::in_open_form(
       mesh, execution, [&](const Connectivity& opened) -> Result<CornerTable> {
-        const TriangleView view = triangles_of(opened);
+        const TriangleView view = detail::triangles_of(opened);
         const auto count = at(view.halfedge_count());
         CornerTable table{Buffer<VertexId>(count), Buffer<CornerId>(count),
                           detail::ids_of<CornerId>(opened.outgoing(), execution),
@@ -85,10 +63,10 @@ Result<Connectivity> build_connectivity(const CornerTable& table, const Executio
 }
 
 Result<DirectedEdges> build_directed_edges(const Connectivity& mesh, const Execution& execution) {
-  if (const Result<void> all = check_triangles(mesh); !all) return fail(all.error());
+  if (const Result<void> all = detail::check_triangles(mesh); !all) return fail(all.error());
   return detail::in_open_form(
       mesh, execution, [&](const Connectivity& opened) -> Result<DirectedEdges> {
-        const TriangleView view = triangles_of(opened);
+        const TriangleView view = detail::triangles_of(opened);
         DirectedEdges edges{Buffer<DirectedEdge>(at(view.halfedge_count())),
                             detail::ids_of<HalfedgeId>(opened.outgoing(), execution),
                             Buffer<FanStart>::copy_of(opened.fans()), mesh.form()};

@@ -1,0 +1,103 @@
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "clock.h"
+#include "commands.h"
+#include "failure.h"
+#include "hedgerow/subdivide.h"
+#include "mesh_file.h"
+#include "table.h"
+
+namespace hedgerow::tool {
+namespace {
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::string scheme;
+  int levels = 1;
+};
+
+SubdivisionScheme scheme_named(std::string_view word) {
+  if (word == "loop") return SubdivisionScheme::loop;
+  if (word == "sqrt3") return SubdivisionScheme::sqrt3;
+  return SubdivisionScheme::catmull_clark;
+}
+
+Json counts_json(const Connectivity& mesh) {
+  return {{"vertices", mesh.vertex_count()},
+          {"faces", mesh.face_count()},
+          {"halfedges", mesh.halfedge_count()}};
+}
+
+std::string report_text(const Run& run, const Arguments& arguments, const Connectivity& before,
+                        const Connectivity& after, double ms) {
+  Table table({{"elements", Table::Align::left}, {"before"}, {"after"}});
+  const auto add = [&](const char* what, Index old_count, Index new_count) {
+    table.add({what, fmt::format("{}", old_count), fmt::format("{}", new_count)});
+  };
+  add("vertices", before.vertex_count(), after.vertex_count());
+  add("faces", before.face_count(), after.face_count());
+  add("half-edges", before.halfedge_count(), after.halfedge_count());
+  return fmt::format("{}\n{}: {} levels of {} in {}\n", table.text(run.colour()), arguments.output,
+                     arguments.levels, arguments.scheme, time_text(ms));
+}
+
+ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
+  check_output_path(arguments.output);
+  run.progress().begin(4);
+  const OpenedMesh opened = open_mesh(run, arguments.input);
+  run.progress().step("subdividing");
+  const Clock clock;
+  Result<SubdivisionOutput> output =
+      subdivide(opened.mesh(), opened.kept.positions(),
+                {scheme_named(arguments.scheme), arguments.levels, {}}, run.execution());
+  const double ms = clock.ms();
+  if (!output) throw describe(output.error(), arguments.input);
+  run.progress().step("writing");
+  write_mesh(run, arguments.output, soup_of(output->mesh, std::move(output->positions)));
+
+  if (run.is_text()) {
+    run.print(report_text(run, arguments, opened.mesh(), output->mesh, ms));
+    return ExitStatus::done;
+  }
+  Json json;
+  json["input"] = arguments.input;
+  json["output"] = arguments.output;
+  json["scheme"] = arguments.scheme;
+  json["levels"] = arguments.levels;
+  json["before"] = counts_json(opened.mesh());
+  json["after"] = counts_json(output->mesh);
+  json["timings_ms"] = {
+      {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"subdivide", ms}};
+  run.print_json(json);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_subdivide(Program& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      program.add_command("subdivide", "Refine a mesh and smooth it on the way",
+                          "Loop and sqrt3 take triangles only. Prints the counts before and after.",
+                          "hedgerow subdivide cube.obj ball.ply --scheme catmull-clark --levels 3",
+                          [arguments](Run& run) { return subdivide_file(run, *arguments); });
+  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
+  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
+  command.add_option("--scheme", arguments->scheme, "How to refine")
+      ->required()
+      ->check(CLI::IsMember({"loop", "catmull-clark", "sqrt3"}))
+      ->type_name("");
+  command.add_option("--levels", arguments->levels, "How often; 0 copies the mesh")
+      ->check(CLI::Range(0, 64))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+}  // namespace hedgerow::tool
