@@ -298,11 +298,19 @@ class Subdivide(ProgramTest):
 
     def test_triangle_schemes_refuse_quads(self):
         for scheme in ("loop", "sqrt3"):
-            self.fails(3, "subdivide", self.file("a.obj", cli.CUBE), self.path("b.ply"),
-                       "--scheme", scheme, "--levels", "1")
+            err = self.fails(3, "subdivide", self.file("a.obj", cli.CUBE), self.path("b.ply"),
+                             "--scheme", scheme, "--levels", "1")
+            self.assertIn("face 0 has 4 corners", err)
             self.assertFalse(os.path.exists(self.path("b.ply")))
             self.done("subdivide", self.file("a.obj", cli.TETRAHEDRON), self.path("c.ply"),
                       "--scheme", scheme, "--levels", "1")
+
+    def test_more_levels_than_an_index_can_count_are_a_limit(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        err = self.fails(5, "subdivide", mesh, self.path("b.ply"), "--scheme", "catmull-clark",
+                         "--levels", "64")
+        self.assertIn("too-many-elements", err)
+        self.assertFalse(os.path.exists(self.path("b.ply")))
 
     def test_wrong_levels_and_schemes_are_usage(self):
         mesh = self.file("a.obj", cli.TETRAHEDRON)

@@ -45,6 +45,9 @@ std::string message_of(const Error& error) {
     case ErrorCode::too_many_elements:
       return fmt::format("{} elements were asked for; an index of this build counts to {}",
                          error.value, error.limit);
+    case ErrorCode::not_triangles:
+      return fmt::format("face {} has {} corners; this is for triangles only", error.element,
+                         error.value);
     case ErrorCode::bad_face_offsets:
       return fmt::format("the corners of face {} are not inside the corner array", error.element);
     default:
