@@ -118,6 +118,10 @@ def choice(results, _counts):
         f"**Split edge** ({size_of('split-edge')} bytes) where only rings are walked, which it has "
         f"stored: {told('ring_halfedges', 'split-edge', 'shuffled')} ns for the half-edges of a ring, "
         f"but {told('face_vertices', 'split-edge', 'shuffled')} for the vertices of a face, shuffled.",
+        f"**Adjacency** ({size_of('adjacency')} bytes) where no vertex has an id, as when faces alone are "
+        f"joined or counted: the faces across one in {told('face_faces', 'adjacency')} / "
+        f"{told('face_faces', 'adjacency', 'shuffled')} ns; components, Euler characteristic and "
+        f"genus come together from orbits, {told('genus', 'adjacency')} ns an edge.",
         f"**Winged tables** ({size_of('winged-tables')} bytes) to exchange: each step compares "
         f"vertices, {told('ring_vertices', 'winged-tables')} ns a ring.",
         f"**Non-manifold** records ({size_of('nonmanifold')} bytes, built in "
