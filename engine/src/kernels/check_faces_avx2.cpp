@@ -1,4 +1,5 @@
-// The form of check_faces_sse.cpp with eight triangles at a time, and four blocks remembered.
+// The form of check_faces_sse.cpp with eight triangles at a time, and eight blocks remembered: the
+// last of each remainder modulo eight, so that one table lookup finds the only one that can match.
 
 #include <algorithm>
 
@@ -16,13 +17,13 @@ namespace {
 
 constexpr Index kGroup = 8;     // triangles
 constexpr Index kTail = 2;      // indices behind a group that are read too
-constexpr int kRemembered = 4;  // blocks
+constexpr int kRemembered = 8;  // blocks
 constexpr Index kWide = RunBlocks::kCapacity + 1;
 
 struct Bounds {
   __m256i last_vertex;
   __m128i shift;
-  __m256i block[kRemembered];
+  __m256i block;  // lane i: one that is i modulo eight
 };
 
 struct Group {
@@ -31,12 +32,14 @@ struct Group {
 };
 
 void remember(const RunBlocks& run, Bounds& bounds) noexcept {
-  for (int i = 0; i < kRemembered; ++i) {
-    const bool exists = run.count > i && run.count < kWide;
-    // -1 is the block of no vertex.
-    bounds.block[i] =
-        _mm256_set1_epi32(exists ? static_cast<int>(run.block[run.count - 1 - i]) : -1);
+  alignas(32) int block[kRemembered];
+  std::fill_n(block, kRemembered, -1);  // the block of no vertex
+  if (run.count < kWide) {
+    for (Index i = 0; i < run.count; ++i) {
+      block[static_cast<unsigned>(run.block[i]) % kRemembered] = static_cast<int>(run.block[i]);
+    }
   }
+  bounds.block = _mm256_load_si256(reinterpret_cast<const __m256i*>(block));
 }
 
 __m256i load(const Index* p) noexcept {
@@ -51,23 +54,24 @@ __m256i same_triangle(int j, int ahead) noexcept {
 }
 
 Group look_at(const Index* c, const Bounds& bounds) noexcept {
-  __m256i good = _mm256_set1_epi32(-1);
+  __m256i largest = _mm256_setzero_si256();
   __m256i equal = _mm256_setzero_si256();
   __m256i inside = _mm256_set1_epi32(-1);
   for (int j = 0; j < 3; ++j) {
     const __m256i v = load(c + 8 * j);
-    good = _mm256_and_si256(good, _mm256_cmpeq_epi32(_mm256_min_epu32(v, bounds.last_vertex), v));
+    largest = _mm256_max_epu32(largest, v);
     const __m256i next = _mm256_cmpeq_epi32(v, load(c + 8 * j + 1));
     const __m256i after = _mm256_cmpeq_epi32(v, load(c + 8 * j + 2));
     equal = _mm256_or_si256(equal, _mm256_or_si256(_mm256_and_si256(next, same_triangle(j, 1)),
                                                    _mm256_and_si256(after, same_triangle(j, 2))));
     const __m256i block = _mm256_srl_epi32(v, bounds.shift);
-    __m256i known = _mm256_cmpeq_epi32(block, bounds.block[0]);
-    for (int i = 1; i < kRemembered; ++i) {
-      known = _mm256_or_si256(known, _mm256_cmpeq_epi32(block, bounds.block[i]));
-    }
+    // The lookup takes the remainder itself.
+    const __m256i known =
+        _mm256_cmpeq_epi32(block, _mm256_permutevar8x32_epi32(bounds.block, block));
     inside = _mm256_and_si256(inside, known);
   }
+  const __m256i good =
+      _mm256_cmpeq_epi32(_mm256_max_epu32(largest, bounds.last_vertex), bounds.last_vertex);
   return {_mm256_movemask_epi8(_mm256_andnot_si256(equal, good)) == -1,
           _mm256_movemask_epi8(inside) == -1};
 }
