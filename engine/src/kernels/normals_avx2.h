@@ -59,11 +59,21 @@ class TriangleLoader {
     }
   }
 
+  /// Whether the last vertex is among the corners of eight triangles.
+  [[nodiscard]] bool has_last(const Index* corners) const noexcept {
+    return is_any_last(largest_of(corners));
+  }
+  /// The positions of two vertices, as rows of x, y, z and what lies behind them. \pre neither is
+  /// the last vertex
+  [[nodiscard]] __m256 load_two(Index low, Index high) const noexcept {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(low))),
+                                _mm_loadu_ps(at(high)), 1);
+  }
+
   /// Lane i of p[k] is at corners[3 i + k].
   void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
-    const __m256i some = _mm256_max_epi32(load_indices(corners), load_indices(corners + 8));
     const auto corner = [corners](int i, int k) { return corners[3 * i + k]; };
-    load(corner, _mm256_max_epi32(some, load_indices(corners + 16)), p);
+    load(corner, largest_of(corners), p);
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
   /// triangle of `corners` may be named; behind the last there is nothing to read.
@@ -89,11 +99,20 @@ class TriangleLoader {
     return data_ + static_cast<std::size_t>(v) * (kFloats == 0 ? floats_ : kFloats);
   }
 
+  // One lane has the largest of 24.
+  [[nodiscard]] static __m256i largest_of(const Index* corners) noexcept {
+    const __m256i some = _mm256_max_epi32(load_indices(corners), load_indices(corners + 8));
+    return _mm256_max_epi32(some, load_indices(corners + 16));
+  }
+  [[nodiscard]] bool is_any_last(__m256i largest) const noexcept {
+    return _mm256_movemask_epi8(_mm256_cmpeq_epi32(largest, last_)) != 0;
+  }
+
   // Corner k of triangle i is corner(i, k); `largest` has the largest of them in one of its lanes,
   // and nothing larger than the last vertex.
   template <class Corner>
   void load(const Corner& corner, __m256i largest, Vec3<Float8> (&p)[3]) const noexcept {
-    if (_mm256_movemask_epi8(_mm256_cmpeq_epi32(largest, last_)) != 0) [[unlikely]] {
+    if (is_any_last(largest)) [[unlikely]] {
       for (int k = 0; k < 3; ++k) p[k] = one_by_one(corner, k);
       return;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels/normals_avx2.h"
@@ -49,7 +50,49 @@ class Sums {
   std::uintptr_t zeroth_;  // of a vertex that need not be in the block
 };
 
-template <NormalWeight W, class Loader>
+// What the corners of eight triangles add, as rows x, y, z, 1: row i of rows[k] is of corner k of
+// triangle i, or of all three where they add the same. False: one of them needs the plain form.
+template <NormalWeight W, class Loader, std::size_t kCount>
+bool corner_rows(const Index* corners, const Loader& loader, Rows8 (&rows)[kCount]) noexcept {
+  Vec3<Float8> p[3];
+  loader.load(corners, p);
+  TriangleTerms<Float8> terms;
+  const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
+  for (std::size_t k = 0; k < kCount; ++k) {
+    rows[k] = to_rows(corner_term<W>(terms, terms.factor[k]), 1);
+  }
+  return usual.lanes() == 0xff;
+}
+
+// Area vectors are crossed as rows, as positions lie in memory: to turn them into lanes and back
+// takes more instructions than the cross products. Only squares become lanes, to test all eight.
+template <class Loader>
+[[gnu::always_inline]] inline bool area_rows(const Index* corners, const Loader& loader,
+                                             Rows8& rows) noexcept {
+  if (loader.has_last(corners)) [[unlikely]]
+    return false;
+  const auto turned = [](__m256 v) { return _mm256_permute_ps(v, 0xc9); };  // y, z, x
+  const __m256 one = _mm256_set_ps(1, 0, 0, 0, 1, 0, 0, 0);
+  __m256 square[4];
+  for (int j = 0; j < 4; ++j) {
+    const Index* two = corners + 6 * j;
+    const __m256 origin = loader.load_two(two[0], two[3]);
+    const __m256 u = _mm256_sub_ps(loader.load_two(two[1], two[4]), origin);
+    const __m256 v = _mm256_sub_ps(loader.load_two(two[2], two[5]), origin);
+    // z, x, y of the cross product, and what came of the bytes behind the positions.
+    const __m256 zxy = _mm256_sub_ps(_mm256_mul_ps(u, turned(v)), _mm256_mul_ps(turned(u), v));
+    const __m256 area = _mm256_blend_ps(turned(zxy), _mm256_setzero_ps(), 0x88);
+    square[j] = _mm256_mul_ps(area, area);
+    const __m256 counted = _mm256_or_ps(area, one);
+    rows.row[2 * j] = _mm256_castps256_ps128(counted);
+    rows.row[2 * j + 1] = _mm256_extractf128_ps(counted, 1);
+  }
+  const Float8 squares(
+      _mm256_hadd_ps(_mm256_hadd_ps(square[0], square[1]), _mm256_hadd_ps(square[2], square[3])));
+  return is_usual(squares).lanes() == 0xff;
+}
+
+template <NormalWeight W, bool kInside, class Loader>
 void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
              const SumBlock& block, const Loader& loader) noexcept {
   constexpr bool kOneTerm = W == NormalWeight::area || W == NormalWeight::uniform;
@@ -59,21 +102,18 @@ void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
   Index f = range.begin;
   for (; f + kGroup <= range.end; f += kGroup, corners += 3 * kGroup) {
     loader.prefetch(corners, 3 * static_cast<std::ptrdiff_t>(end_of_all - kGroup - f));
-    const unsigned in_block = inside(corners, block);
+    const unsigned in_block = kInside ? kAllInside : inside(corners, block);
     if (in_block == 0) continue;
-    Vec3<Float8> p[3];
-    loader.load(corners, p);
-    TriangleTerms<Float8> terms;
-    const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
-    if (usual.lanes() != 0xff) [[unlikely]] {
-      scatter_triangles_scalar({f, f + kGroup}, corners, input, block, false);
-      continue;
+    Rows8 rows[kOneTerm ? 1 : 3];
+    bool is_usual = false;
+    if constexpr (W == NormalWeight::area) {
+      is_usual = area_rows(corners, loader, rows[0]);
+    } else {
+      is_usual = corner_rows<W>(corners, loader, rows);
     }
-    Rows8 rows[3];
-    rows[0] = to_rows(corner_term<W>(terms, terms.factor[0]), 1);
-    if constexpr (!kOneTerm) {
-      rows[1] = to_rows(corner_term<W>(terms, terms.factor[1]), 1);
-      rows[2] = to_rows(corner_term<W>(terms, terms.factor[2]), 1);
+    if (!is_usual) [[unlikely]] {
+      scatter_triangles_scalar({f, f + kGroup}, corners, input, block, kInside);
+      continue;
     }
     if (in_block == kAllInside) [[likely]] {
 #pragma GCC unroll 8
@@ -87,7 +127,7 @@ void scatter(IndexRange range, const Index* corners, const ScatterInput& input,
       }
     }
   }
-  scatter_triangles_scalar({f, range.end}, corners, input, block, false);
+  scatter_triangles_scalar({f, range.end}, corners, input, block, kInside);
 }
 
 // The sums of eight vertices, in lanes: lane i is vertex i.
@@ -103,10 +143,11 @@ Vec3<Float8> load_sums(const VertexSum* sums) noexcept {
 }  // namespace
 
 void scatter_triangles_avx2(IndexRange range, const Index* corners, const ScatterInput& input,
-                            const SumBlock& block, bool) noexcept {
+                            const SumBlock& block, bool is_inside) noexcept {
   with_weight(input.weight, [&](auto weight) {
     with_loader(input.points, [&](const auto& loader) {
-      scatter<weight()>(range, corners, input, block, loader);
+      is_inside ? scatter<weight(), true>(range, corners, input, block, loader)
+                : scatter<weight(), false>(range, corners, input, block, loader);
     });
   });
 }
