@@ -68,10 +68,17 @@ TEST(Incircle, IsPositiveInsideForALeftTurn) {
 TEST(Predicates, AgreeWithWholeNumbersOnSmallGrids) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<int> coordinate(-3, 3);
-  for (int i = 0; i < 5000; ++i) {
-    Quad quad;
-    for (Point2& p : quad) p = {0.1 * coordinate(random), 0.1 * coordinate(random)};
-    expect_the_slow_signs(quad);
+  // Far from the origin the differences are few units; a step of 0.1 is not exact in binary.
+  for (const double step : {0.1, 1.0, 0x1p-100}) {
+    for (const double shift : {0.0, 1e6 * step}) {
+      for (int i = 0; i < 2000; ++i) {
+        Quad quad;
+        for (Point2& p : quad) {
+          p = {step * coordinate(random) + shift, step * coordinate(random) - shift};
+        }
+        expect_the_slow_signs(quad);
+      }
+    }
   }
 }
 
