@@ -49,6 +49,14 @@ struct [[nodiscard]] EditCheck {
 /// What an edit has changed, until the next one; or why it was not done.
 using EditResult = tl::expected<const Change*, EditCheck>;
 
+/// What became of the edges of a batch, each list in the order in which they were given.
+struct FlipBatch {
+  const Change* change = nullptr;  ///< of all flips together, until the next edit
+  std::vector<HalfedgeId> flipped;
+  std::vector<HalfedgeId> rest;     ///< one before it has a face in common, or makes the same edge
+  std::vector<HalfedgeId> refused;  ///< `can_flip` says no
+};
+
 /// Old to new numbers of what `compact` kept; invalid for what is gone.
 struct CompactMaps {
   std::vector<VertexId> vertices;
@@ -157,10 +165,15 @@ class EditMesh {
   /// Whether edits fill their record; without, they take half of the time, and can neither be
   /// undone nor replayed.
   void set_recording(bool is_recording) noexcept { is_recording_ = is_recording; }
+  [[nodiscard]] bool is_recording() const noexcept { return is_recording_; }
 
   /// Turns the edge of h by one corner in its two faces; in two triangles, to the other diagonal.
   [[nodiscard]] EditCheck can_flip(HalfedgeId h) const;
   EditResult flip(HalfedgeId h);
+  /// Flips those edges of `wanted` that do not meet, an earlier one before a later one; the rest is
+  /// for the next round. The same result for every execution. O(sum of valences + F / 64). Throws
+  /// std::bad_alloc, and has then changed nothing unless it records. \pre no edge is given twice
+  FlipBatch flip_batch(std::span<const HalfedgeId> wanted, const Execution& execution);
 
   /// A vertex in the middle of the edge of h: both faces have one corner more. h ends there.
   [[nodiscard]] EditCheck can_insert_vertex(HalfedgeId h) const;
@@ -225,6 +238,7 @@ class EditMesh {
 
  private:
   friend class Edit;
+  friend class FlipBatcher;
 
   static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   static Index size(const std::vector<Index>& column) noexcept {

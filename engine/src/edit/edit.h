@@ -52,6 +52,9 @@ class Edit {
   void remove(HalfedgeId h);
   void remove(FaceId f);
 
+  /// Turns the edge of h by one corner. \pre can_flip
+  void flip(HalfedgeId h);
+
   /// The vertex starts its rotation at `h`, or on the boundary if it has one (I6).
   void settle(VertexId v, HalfedgeId h);
   /// The same if it starts on the boundary no longer, or at a half-edge that is gone.

@@ -23,34 +23,38 @@ EditCheck EditMesh::can_flip(HalfedgeId h) const {
   return test.has_one_fan({mesh.origin[h], mesh.origin[o], c, d});
 }
 
+void Edit::flip(HalfedgeId h) {
+  const HalfedgeId o = opposite(h);
+  const HalfedgeId n = next(h);
+  const HalfedgeId m = next(o);
+  const HalfedgeId p = prev(h);
+  const HalfedgeId q = prev(o);
+  const FaceId f = face(h);
+  const FaceId g = face(o);
+  const VertexId a = origin(h);
+  const VertexId b = origin(o);
+  const VertexId c = target(m);
+  const VertexId d = target(n);
+  link(h, next(n));
+  link(o, next(m));
+  link(p, m);
+  link(m, h);
+  link(q, n);
+  link(n, o);
+  set_origin(h, c);
+  set_origin(o, d);
+  set_face(m, f);
+  set_face(n, g);
+  if (first(f) == n) set_first(f, h);
+  if (first(g) == m) set_first(g, o);
+  if (outgoing(a) == h) set_outgoing(a, m);
+  if (outgoing(b) == o) set_outgoing(b, n);
+}
+
 EditResult EditMesh::flip(HalfedgeId h) {
   if (const EditCheck possible = can_flip(h); !possible) return tl::unexpected(possible);
   Edit edit(*this);
-  const HalfedgeId o = edit.opposite(h);
-  const HalfedgeId n = edit.next(h);
-  const HalfedgeId m = edit.next(o);
-  const HalfedgeId p = edit.prev(h);
-  const HalfedgeId q = edit.prev(o);
-  const FaceId f = edit.face(h);
-  const FaceId g = edit.face(o);
-  const VertexId a = edit.origin(h);
-  const VertexId b = edit.origin(o);
-  const VertexId c = edit.target(m);
-  const VertexId d = edit.target(n);
-  edit.link(h, edit.next(n));
-  edit.link(o, edit.next(m));
-  edit.link(p, m);
-  edit.link(m, h);
-  edit.link(q, n);
-  edit.link(n, o);
-  edit.set_origin(h, c);
-  edit.set_origin(o, d);
-  edit.set_face(m, f);
-  edit.set_face(n, g);
-  if (edit.first(f) == n) edit.set_first(f, h);
-  if (edit.first(g) == m) edit.set_first(g, o);
-  if (edit.outgoing(a) == h) edit.set_outgoing(a, m);
-  if (edit.outgoing(b) == o) edit.set_outgoing(b, n);
+  edit.flip(h);
   return edit.done();
 }
 
