@@ -32,6 +32,8 @@ enum class ErrorCode : std::uint8_t {
   not_triangles,       ///< element = smallest other face; value = its corner count; limit = 3
   needs_padding,       ///< value = readable bytes; limit = bytes that a ray tracer reads
   ray_library,         ///< value = the error code of the ray-tracing library
+  coordinate_out_of_range,  ///< element = point; value = 0 for x, 1 for y; exact signs need it
+                            ///< finite, and 0 or of a magnitude from 2^-limit to 2^limit
 };
 
 /// Stable lower-case word-with-dashes for messages and JSON, e.g. "index-out-of-range".
