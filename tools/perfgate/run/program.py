@@ -10,7 +10,7 @@ import shutil
 from dataclasses import dataclass
 from typing import Dict, List, Mapping, Optional, Tuple
 
-from ..errors import BROKEN, GateError, usage
+from ..errors import BROKEN, GateError, UNFIT, usage
 from ..model.config import Config
 from ..model.google_json import Document, Row, parse
 from ..model.names import exact_pattern
@@ -98,6 +98,8 @@ class Program:
         try:
             document = parse(ended.stdout, f"the {self.side}'s output")
         except GateError as error:
+            if error.code == UNFIT:
+                raise
             raise BenchmarkError(str(error)) from None
         rows = self.rows_of(document, name)
         kept = rows[1:] if len(rows) > 1 else rows
@@ -167,7 +169,7 @@ def random_pad(rng: random.Random) -> int:
 def contexts_differ(base: Mapping[str, object], head: Mapping[str, object],
                     keys: List[str]) -> List[str]:
     return [f"{key}: {base[key]!r} and {head[key]!r}" for key in keys
-            if key in base and key in head and base[key] != head[key]]
+            if None not in (base.get(key), head.get(key)) and base[key] != head[key]]
 
 
 def counters_of(sample: Sample) -> Tuple[Dict[str, float], Optional[str]]:
