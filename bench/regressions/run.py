@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Makes the engine worse in twelve known ways, one after the other, and sees that each is noticed.
 
-  run.py [--only NAME]... [--ref REF] [--work FOLDER] [--list]
+  run.py [--only NAME]... [--ref REF] [--judge perfgate|counts] [--work FOLDER]
+  run.py --list | --check
 
 Each patch beside this file says what it does to the engine, which arm of the gate must notice (time,
 instructions, memory or result) and on which rows. This builds the benchmarks of REF (default: HEAD)
-in a copy of the tree, then with each patch applied, judges both programs, and prints a table. A patch
-that no longer applies is an error, like one that goes unnoticed. Takes twenty minutes.
+in a copy of the tree, then with each patch applied, has both programs judged by tools/perfgate (or by
+bench/count.py, counters and pairs of processes alone), and prints a table. A patch that no longer
+applies is an error, like one that goes unnoticed. Takes half an hour.
 
 Exit status: 0 all noticed, 1 one was missed, or did not apply or build, 2 usage.
 """
@@ -25,7 +27,8 @@ ROOT = FOLDER.parent.parent
 sys.path.insert(0, str(FOLDER))
 sys.path.insert(0, str(FOLDER.parent))
 
-import judge  # noqa: E402  (the path comes first)
+import gate  # noqa: E402  (the path comes first)
+import judge  # noqa: E402
 from perf_format import markdown  # noqa: E402
 
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHEDGEROW_BUILD_BENCH=ON",
@@ -90,7 +93,7 @@ def build(tree, build_folder, to):
     return ""
 
 
-def examine(regression, tree, build_folder, base, work):
+def examine(regression, arms, tree, build_folder, base, work):
     """(finding, whether it was noticed)."""
     refused = applies(regression, tree)
     if refused:
@@ -104,7 +107,7 @@ def examine(regression, tree, build_folder, base, work):
     if broken:
         return broken, False
     try:
-        return judge.ARMS[regression.arm](base, head, regression.rows)
+        return arms[regression.arm](base, head, regression.rows)
     except (judge.RowsError, subprocess.CalledProcessError) as error:
         return f"cannot be judged: {error}", False
 
@@ -114,6 +117,8 @@ def main(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", action="append", help="one of the names of --list; may be repeated")
     parser.add_argument("--ref", default="HEAD")
+    parser.add_argument("--judge", choices=("perfgate", "counts"),
+                        default="perfgate" if gate.is_there() else "counts")
     parser.add_argument("--work", type=pathlib.Path, help="an empty folder that is kept")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--check", action="store_true", help="only whether they apply to this tree")
@@ -136,19 +141,20 @@ def main(arguments):
     # Wide ids compile everything anew: last.
     chosen.sort(key=lambda regression: regression.name == "wide-ids")
     with tempfile.TemporaryDirectory() as folder:
-        return run(chosen, options.ref, options.work or pathlib.Path(folder) / "work")
+        return run(chosen, options, options.work or pathlib.Path(folder) / "work")
 
 
-def run(chosen, ref, work):
+def run(chosen, options, work):
     tree, build_folder, base = work / "tree", work / "build", work / "base" / "hedgerow_bench"
-    copy_tree(ref, tree)
+    arms = (gate if options.judge == "perfgate" else judge).ARMS
+    copy_tree(options.ref, tree)
     broken = build(tree, build_folder, base)
     if broken:
-        print(f"{ref} {broken}", file=sys.stderr)
+        print(f"{options.ref} {broken}", file=sys.stderr)
         return 1
     table = []
     for regression in chosen:
-        finding, is_noticed = examine(regression, tree, build_folder, base, work)
+        finding, is_noticed = examine(regression, arms, tree, build_folder, base, work)
         table.append([regression.name, regression.arm, finding, "caught" if is_noticed else "MISSED"])
         print(f"{table[-1][3]}: {regression.name}: {finding}", file=sys.stderr)
     print(markdown(["regression", "arm", "finding", "verdict"], table, left=4))
