@@ -6,15 +6,31 @@
 namespace hedgerow {
 
 namespace {
-constexpr const char* kErrorNames[] = {
-    "index-out-of-range", "too-few-corners",    "repeated-vertex",        "duplicate-face",
-    "nonmanifold-edge",   "inconsistent-edge",  "nonmanifold-vertex",     "isolated-vertex",
-    "too-many-elements",  "bad-face-offsets",   "null-pointer",           "bad-stride",
-    "count-mismatch",     "unsupported-policy", "scratch-too-small",      "already-closed",
-    "already-open",       "not-canonical",      "inconsistent-table",     "not-triangles",
-    "needs-padding",      "ray-library",        "coordinate-out-of-range"};
-static_assert(std::size(kErrorNames) ==
-              static_cast<std::size_t>(ErrorCode::coordinate_out_of_range) + 1);
+constexpr const char* kErrorNames[] = {"index-out-of-range",
+                                       "too-few-corners",
+                                       "repeated-vertex",
+                                       "duplicate-face",
+                                       "nonmanifold-edge",
+                                       "inconsistent-edge",
+                                       "nonmanifold-vertex",
+                                       "isolated-vertex",
+                                       "too-many-elements",
+                                       "bad-face-offsets",
+                                       "null-pointer",
+                                       "bad-stride",
+                                       "count-mismatch",
+                                       "unsupported-policy",
+                                       "scratch-too-small",
+                                       "already-closed",
+                                       "already-open",
+                                       "not-canonical",
+                                       "inconsistent-table",
+                                       "not-triangles",
+                                       "needs-padding",
+                                       "ray-library",
+                                       "coordinate-out-of-range",
+                                       "site-outside-box"};
+static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::site_outside_box) + 1);
 
 constexpr const char* kDefectNames[] = {
     "out-of-range",     "too-few-corners",   "repeated-vertex",    "duplicate-face",
