@@ -10,7 +10,7 @@ from perfgate.stats import bounds, suite
 from perfgate.stats.sequential import (EQUIVALENT, IMPROVEMENT, INCONCLUSIVE, PASS, REGRESSION,
                                        SMALL_SLOWDOWN, UNSTABLE, Plan, is_decided, replay, verdict_of)
 
-LN102 = math.log1p(0.02)
+LN102 = math.log(1.02)
 
 
 def values(n, low, high):
@@ -94,6 +94,12 @@ class Replay(unittest.TestCase):
         self.assertEqual([found[n].verdict for n in ("calm", "red", "torn")],
                          [EQUIVALENT, REGRESSION, UNSTABLE])
         self.assertFalse(any(outcome.is_open for outcome in found.values()))
+
+    def test_is_not_called_unstable_before_the_last_look_is_whole(self):
+        torn = [0.10, -0.10] * 48
+        for n, verdict in ((94, INCONCLUSIVE), (96, UNSTABLE)):
+            found = replay({"torn": torn[:n]}, {"torn": LN102}, self.PLAN, 2)["torn"]
+            self.assertEqual(found.verdict, verdict, n)
 
     def test_wants_more_while_a_look_is_left(self):
         torn = [0.10, -0.10] * 48

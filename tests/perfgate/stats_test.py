@@ -189,6 +189,11 @@ class Holm(unittest.TestCase):
                 adjusted[i] = largest
             self.assertEqual(found, [adjusted[i] <= 0.05 for i in range(len(p_values))])
 
+    def test_rejects_what_meets_its_level_exactly(self):
+        exact = [Fraction(1, 8), Fraction(1, 4)]
+        self.assertEqual(holm.holm_levels(exact, 0.25, 2), [0.125, 0.25])
+        self.assertEqual(holm.holm_levels(exact, 0.25, 3), [0.25 / 3, 0.25 / 3])
+
     def test_of_nothing_is_nothing(self):
         self.assertEqual(holm.holm_levels([], 0.05, 3), [])
 
@@ -226,6 +231,15 @@ class Unpaired(unittest.TestCase):
         self.assertEqual((found.lower, found.estimate, found.upper), (shifts[2], shifts[12], shifts[22]))
         # P(U <= 4) = 0.048, P(U <= 5) = 0.075
         self.assertEqual((found.pass_lower, found.pass_upper), (shifts[4], shifts[20]))
+
+    def test_takes_a_chance_that_is_met_exactly(self):
+        self.assertEqual(ranksum.rank_sum_index(1, 1, 0.5), 1)
+        self.assertEqual(ranksum.rank_sum_index(1, 1, 0.49), 0)
+
+    def test_takes_times_below_one_and_counts_the_smaller_sample(self):
+        found = ranksum.unpaired_bounds([0.5] * 9, [0.25] * 4, 0.05, 0.05)
+        self.assertEqual(found.n, 4)
+        self.assertAlmostEqual(found.estimate, math.log(0.5))
 
     def test_drops_zeros_and_counts_ties(self):
         self.assertIsNone(ranksum.unpaired_bounds([0.0], [1.0], 0.05, 0.05))
