@@ -3,6 +3,8 @@
 
 import os
 import pathlib
+import re
+import subprocess
 import sys
 
 from support import cli
@@ -189,6 +191,20 @@ class Render(ProgramTest):
         self.fails(1, "render", self.file("b.obj", cli.THREE_ON_AN_EDGE), self.path("a.png"),
                    "--strict")
         self.assertFalse(os.path.exists(self.path("a.png")))
+
+    def test_the_gallery_shows_what_its_script_draws(self):
+        if cli.SANITIZED:
+            self.skipTest("takes minutes under a sanitizer")
+        root = pathlib.Path(__file__).resolve().parent.parent
+        shown = re.findall(r"\(tools/gallery/(\w+\.png)\)", (root / "README.md").read_text())
+        subprocess.run([root / "tools/gallery/make", self.folder], check=True,
+                       env={**os.environ, "HEDGEROW": cli.PROGRAM})
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(shown))
+        for name in shown:
+            drawn, kept = Png(self.path(name)), Png(root / "tools/gallery" / name)
+            self.assertEqual((drawn.width, drawn.height), (kept.width, kept.height))
+            unlike = sum(not is_near(a, b, 12) for a, b in zip(drawn.pixels(), kept.pixels()))
+            self.assertLess(unlike, 0.01 * kept.width * kept.height, name)
 
 
 if __name__ == "__main__":
