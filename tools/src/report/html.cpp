@@ -119,8 +119,8 @@ std::string bandwidth_plot(const std::vector<const Stage*>& stages, const Bandwi
     rows += bar_row(title_of(*stage), share, 0, fmt::format("{:.0f} %", 100 * share));
   }
   return "<h2>Share of the memory bandwidth</h2>\n<p class=\"soft\">Bytes that had to move, "
-         "divided "
-         "by the time and by what this machine moves in the same mix of reads and writes.</p>\n"
+         "divided by the time and by what this machine moves in the same mix of reads and "
+         "writes. More than 100 %: the caches held it.</p>\n"
          "<div class=\"plot\">\n" +
          rows + "</div>\n";
 }
