@@ -23,6 +23,7 @@ struct Arguments {
   std::string shape = "terrain";
   std::int64_t size = 2'000'000;
   std::string stages = "S0,S2,S3,S4,S5,S6";
+  std::string moved = "both";
   std::string out;
 };
 
@@ -56,12 +57,19 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--piece-faces", options.piece_faces, "Faces a piece of the moving tree; 0: one")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--moved", arguments.moved, "Per cent of the vertices that move in the frames")
+      ->check(CLI::IsMember({"1", "100", "both"}))
+      ->capture_default_str();
+  app.add_option("--loops", options.loops, "Which frames: on one thread, on all, double-buffered")
+      ->capture_default_str();
   app.add_option("--stages", arguments.stages, "Which of them, e.g. S5,S6")->capture_default_str();
   app.add_option("--out", arguments.out, "JSON file to write");
 }
 
 int run(const Arguments& arguments) {
-  const FrameOptions& options = arguments.options;
+  FrameOptions options = arguments.options;
+  options.moves_some = arguments.moved != "100";
+  options.moves_all = arguments.moved != "1";
   const Subject subject(arguments.mesh.empty() ? generate_soup(arguments.shape, arguments.size)
                                                : read_soup(arguments.mesh));
   const std::string name = arguments.mesh.empty() ? arguments.shape : arguments.mesh;

@@ -10,6 +10,8 @@ namespace {
 
 using ray::Vec3;
 
+constexpr float kSlope = 0.42F;  // half the width of the picture at distance 1: the mesh fills it
+
 Vec3 plus(const Vec3& a, const Vec3& b, float s) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
@@ -49,8 +51,8 @@ Packets primary_rays(const Subject& subject, std::int64_t count) {
         for (int i = 0; i < 8; ++i) {
           const float across = (static_cast<float>(left + i) + 0.5F) / static_cast<float>(columns);
           const float down = (static_cast<float>(y) + 0.5F) / static_cast<float>(rows);
-          const Vec3 way = plus(plus(plus({}, back, -1), right, 0.7F * (2 * across - 1)), up,
-                                0.7F * 9 / 16 * (1 - 2 * down));
+          const Vec3 way = plus(plus(plus({}, back, -1), right, kSlope * (2 * across - 1)), up,
+                                kSlope * 9 / 16 * (1 - 2 * down));
           packet.set(static_cast<std::size_t>(i), {eye, unit(way)});
         }
       }

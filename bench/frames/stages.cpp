@@ -14,7 +14,6 @@
 #include "hedgerow/normals.h"
 #include "hedgerow/reorder.h"
 #include "hedgerow/shapes.h"
-#include "peers/measured_mesh.h"
 
 namespace hedgerow::bench {
 namespace {
@@ -76,15 +75,6 @@ void measure_import(Rows& rows, const Subject& subject, const FrameOptions& opti
     for (const Index v : subject.soup.corners) corners.push_back(static_cast<std::uint16_t>(v));
     import_list(rows, options, FaceList::triangles<std::uint16_t>(corners, subject.vertices()),
                 "build, 16-bit indices");
-  }
-  for (const Peer& peer : peers()) {
-    bool is_built = false;
-    const double ms = best_ms(1, [&] {
-      is_built = peer.build(subject.soup.face_list(), subject.soup.positions()) != nullptr;
-    });
-    if (!is_built) continue;
-    rows.add({"S0", "conversion, order of the file", peer.name,
-              mega_per_second(subject.faces(), ms), "Mfaces/s", "one thread"});
   }
 }
 

@@ -34,6 +34,16 @@ std::vector<Index> find_blob(const Connectivity& mesh) {
   return blob;
 }
 
+void wave(const Subject& subject, Index v, float time, Buffer<float>& xyz) {
+  const float amplitude = 0.01F * subject.diagonal;
+  const float frequency = 40 / subject.diagonal;
+  const float* rest = subject.soup.positions()[v];
+  float* out = xyz.data() + 3 * v;
+  out[0] = rest[0];
+  out[1] = rest[1];
+  out[2] = rest[2] + amplitude * std::sin(frequency * rest[0] + time);
+}
+
 void turn(const Subject& subject, float angle, bool is_twist, Buffer<float>& xyz) {
   for (Index v = 0; v < subject.mesh.vertex_count(); ++v) {
     const float* rest = subject.soup.positions()[v];
@@ -75,18 +85,10 @@ Subject::Subject(Soup&& faces) : soup(std::move(faces)) {
 }
 
 void deform(const Subject& subject, std::span<const Index> moved, float time, Buffer<float>& xyz) {
-  const float amplitude = 0.01F * subject.diagonal;
-  const float frequency = 40 / subject.diagonal;
-  const auto move = [&](Index v) {
-    const float* rest = subject.soup.positions()[v];
-    float* out = xyz.data() + 3 * v;
-    out[0] = rest[0];
-    out[1] = rest[1];
-    out[2] = rest[2] + amplitude * std::sin(frequency * rest[0] + time);
-  };
-  for (const Index v : moved) move(v);
-  if (!moved.empty()) return;
-  for (Index v = 0; v < subject.mesh.vertex_count(); ++v) move(v);
+  for (const Index v : moved) wave(subject, v, time, xyz);
+}
+void deform(const Subject& subject, IndexRange moved, float time, Buffer<float>& xyz) {
+  for (Index v = moved.begin; v < moved.end; ++v) wave(subject, v, time, xyz);
 }
 
 void rotate(const Subject& subject, float angle, Buffer<float>& xyz) {

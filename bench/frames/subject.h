@@ -27,8 +27,9 @@ struct Subject {
 };
 
 /// The fixed deformation, the same for every library: a wave that runs along x, in z, by a
-/// hundredth of the diagonal. Writes the positions of `moved`, or of all where that is empty.
+/// hundredth of the diagonal. Writes the positions of those vertices.
 void deform(const Subject& subject, std::span<const Index> moved, float time, Buffer<float>& xyz);
+void deform(const Subject& subject, IndexRange moved, float time, Buffer<float>& xyz);
 
 /// Turns everything round the vertical axis through the middle (boxes keep their shape), or twists
 /// it, the more the higher (boxes of a piece grow into each other).

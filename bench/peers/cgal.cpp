@@ -66,14 +66,30 @@ class CgalMesh final : public MeasuredMesh {
   void fill_one_ring_sums(std::span<std::uint32_t> sums) const override {
     for (const Mesh::Vertex_index v : mesh_.vertices()) sums[v.idx()] = ring_sum(v);
   }
-  void fill_one_ring_sums_at(std::span<const Index> vertices,
-                             std::span<std::uint32_t> sums) const override {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      sums[i] = ring_sum(Mesh::Vertex_index(static_cast<Mesh::size_type>(vertices[i])));
+  void set_vertex_normals(Positions normals) override {
+    normals_ = mesh_.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
+    for (const Mesh::Vertex_index v : mesh_.vertices()) {
+      const float* n = normals[static_cast<Index>(v.idx())];
+      normals_[v] = Kernel::Vector_3(n[0], n[1], n[2]);
     }
+  }
+  [[nodiscard]] HitSum answer_hits(std::span<const HitQuestion> hits) const override {
+    HitSum sum;
+    for (const HitQuestion& hit : hits) {
+      const auto corner = [&](std::size_t k) {
+        return normals_[vertex(hit.vertices[k])] * hit.weights[k];
+      };
+      const Kernel::Vector_3 normal = corner(0) + corner(1) + corner(2);
+      add_normal({normal.x(), normal.y(), normal.z()}, sum);
+      sum.ring += ring_sum(vertex(hit.nearest));
+    }
+    return sum;
   }
 
  private:
+  static Mesh::Vertex_index vertex(Index v) {
+    return Mesh::Vertex_index(static_cast<Mesh::size_type>(v));
+  }
   [[nodiscard]] std::uint32_t ring_sum(Mesh::Vertex_index v) const {
     std::uint32_t sum = 0;
     if (mesh_.is_isolated(v)) return sum;
@@ -85,6 +101,7 @@ class CgalMesh final : public MeasuredMesh {
 
   Mesh mesh_;
   FaceList faces_;
+  Mesh::Property_map<Mesh::Vertex_index, Kernel::Vector_3> normals_;
 };
 
 std::unique_ptr<MeasuredMesh> build(const FaceList& faces, Positions positions) {

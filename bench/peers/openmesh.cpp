@@ -79,11 +79,24 @@ class OpenMeshMesh final : public MeasuredMesh {
   void fill_one_ring_sums(std::span<std::uint32_t> sums) const override {
     for (const auto v : mesh_.vertices()) sums[static_cast<std::size_t>(v.idx())] = ring_sum(v);
   }
-  void fill_one_ring_sums_at(std::span<const Index> vertices,
-                             std::span<std::uint32_t> sums) const override {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      sums[i] = ring_sum(OpenMesh::VertexHandle(static_cast<int>(vertices[i])));
+  void set_vertex_normals(Positions normals) override {
+    for (const auto v : mesh_.vertices()) {
+      const float* n = normals[static_cast<Index>(v.idx())];
+      mesh_.set_normal(v, {n[0], n[1], n[2]});
     }
+  }
+  [[nodiscard]] HitSum answer_hits(std::span<const HitQuestion> hits) const override {
+    HitSum sum;
+    for (const HitQuestion& hit : hits) {
+      const auto corner = [&](std::size_t k) {
+        return mesh_.normal(OpenMesh::VertexHandle(static_cast<int>(hit.vertices[k]))) *
+               hit.weights[k];
+      };
+      const OpenMesh::Vec3f normal = corner(0) + corner(1) + corner(2);
+      add_normal({normal[0], normal[1], normal[2]}, sum);
+      sum.ring += ring_sum(OpenMesh::VertexHandle(static_cast<int>(hit.nearest)));
+    }
+    return sum;
   }
   void move_to(Positions positions) override {
     for (const auto v : mesh_.vertices()) {
