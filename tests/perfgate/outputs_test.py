@@ -91,6 +91,16 @@ class Outputs(GateTest):
         self.assert_ends(self.gate("analyze", self.out / "report.json"), 1, "REGRESSION a")
         self.assert_ends(self.gate("analyze", self.out / "report.json", "--margin", "0.08"), 0)
 
+    def test_a_noisy_host_widens_the_margins_of_benchmarks_and_means(self):
+        self.run_gate(*self.programs({"a": 100, "b": 100}, {"a": 107, "b": 107}), *self.config(**FAST))
+        report = {**self.report(), "margin_floor": 0.1}
+        self.assertEqual(report["exit"], 1)
+        path = self.folder / "noisy.json"
+        path.write_text(json.dumps(report))
+        found = json.loads(self.gate("analyze", path, "--json").stdout)
+        self.assertEqual(found["exit"], 0)
+        self.assertAlmostEqual(found["suite"]["margin"], 1.1)
+
     def test_junit_has_a_case_for_each_and_says_why(self):
         self.run_mixed()
         suite = ElementTree.fromstring(self.read("junit.xml")).find("testsuite")

@@ -50,8 +50,9 @@ def report_entry(entry: Entry, judged: Judged, outcome: Optional[Outcome], margi
             **{key: value for key, value in entry.items() if key != "name"}}
 
 
-def suite_rows(entries: Sequence[Entry], family: Family, config: Config) -> List[Dict[str, Any]]:
-    margin = margin_of(config.suite_margin, None, 0.0, None)
+def suite_rows(entries: Sequence[Entry], family: Family, config: Config,
+               floor: float) -> List[Dict[str, Any]]:
+    margin = margin_of(max(config.suite_margin, floor), None, 0.0, None)
     rows = []
     for suite, members in family.suites.items():
         bounds = mean_of_suite(entries, members, family, config.plan())
@@ -96,7 +97,7 @@ def judge(raw: Mapping[str, Any]) -> Report:
         judged = judge_entry(entry, outcomes.get(name), margins[name], config)
         rows.append(report_entry(entry, judged, outcomes.get(name), margins[name],
                                  not config.is_informational(name)))
-    suites = suite_rows(entries, family, config)
+    suites = suite_rows(entries, family, config, raw["margin_floor"])
     report = {key: raw[key] for key in RAW_KEYS}
     report.update(tests=family.tests, benchmarks=rows, suites=suites,
                   suite=suites[0] if suites else None)
