@@ -14,6 +14,8 @@ void add_commands(Program& program) {
   add_reorder(program);
   add_repair(program);
   add_subdivide(program);
+  add_delaunay(program);
+  add_voronoi(program);
 }
 
 }  // namespace hedgerow::tool

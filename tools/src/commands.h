@@ -5,6 +5,7 @@
 namespace hedgerow::tool {
 
 void add_convert(Program& program);
+void add_delaunay(Program& program);
 void add_generate(Program& program);
 void add_inspect(Program& program);
 void add_normals(Program& program);
@@ -12,6 +13,7 @@ void add_render(Program& program);  ///< defined only with HEDGEROW_HAS_RAY
 void add_reorder(Program& program);
 void add_repair(Program& program);
 void add_report(Program& program);
+void add_voronoi(Program& program);
 void add_subdivide(Program& program);
 
 /// All commands, in the order of the help.

@@ -50,6 +50,9 @@ std::string message_of(const Error& error) {
                          error.value);
     case ErrorCode::bad_face_offsets:
       return fmt::format("the corners of face {} are not inside the corner array", error.element);
+    case ErrorCode::coordinate_out_of_range:
+      return fmt::format("{} of point {} is neither 0 nor of a size from 2^-{} to 2^{}",
+                         error.value == 0 ? 'x' : 'y', error.element, error.limit, error.limit);
     default:
       return fmt::format("element {}, value {}, limit {}", error.element, error.value, error.limit);
   }

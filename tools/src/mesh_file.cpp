@@ -10,6 +10,7 @@
 #include "failure.h"
 #include "hedgerow/io/atomic_file.h"
 #include "hedgerow/io/format.h"
+#include "hedgerow/io/points.h"
 #include "hedgerow/io/read.h"
 #include "hedgerow/io/winged_edge.h"
 #include "hedgerow/io/write.h"
@@ -39,8 +40,9 @@ io::ReadOptions read_options(Run& run) {
   return options;
 }
 
-void note_warnings(Run& run, const std::string& path, const io::ReadOutput& output) {
-  for (const io::ReadWarning& warning : output.warnings) {
+void note_warnings(Run& run, const std::string& path,
+                   const std::vector<io::ReadWarning>& warnings) {
+  for (const io::ReadWarning& warning : warnings) {
     const std::string place = warning.line > 0 ? fmt::format("{}:{}", path, warning.line) : path;
     const std::string more =
         warning.count > 1 ? fmt::format(" ({} times)", grouped(warning.count)) : "";
@@ -57,8 +59,17 @@ MeshFile read_mesh(Run& run, const std::string& path) {
   io::IoResult<io::ReadOutput> output = io::read(path, read_options(run));
   const double read_ms = clock.ms();
   if (!output) throw describe_file(output.error(), ExitStatus::input);
-  note_warnings(run, path, *output);
+  note_warnings(run, path, output->warnings);
   return {path, std::move(output->soup), read_ms};
+}
+
+PointsFile read_points(Run& run, const std::string& path) {
+  const Clock clock;
+  io::IoResult<io::PointsOutput> output = io::read_points(path, read_options(run));
+  const double read_ms = clock.ms();
+  if (!output) throw describe_file(output.error(), ExitStatus::input);
+  note_warnings(run, path, output->warnings);
+  return {path, std::move(output->points), read_ms};
 }
 
 void check_output_path(const std::string& path) {

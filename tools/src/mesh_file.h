@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hedgerow/build.h"
+#include "hedgerow/point2.h"
 #include "hedgerow/soup.h"
 #include "hedgerow/winged_edge.h"
 #include "run.h"
@@ -21,6 +22,16 @@ struct MeshFile {
 /// Reads any format that the program knows, with the policies of the run. What is odd but not wrong
 /// goes to standard error. Throws `Failure` with the place of the error.
 [[nodiscard]] MeshFile read_mesh(Run& run, const std::string& path);
+
+/// Points in the plane as they were read, and how long that took.
+struct PointsFile {
+  std::string path;
+  std::vector<Point2> points;
+  double read_ms = 0;
+};
+
+/// Reads .xy or .csv, as `read_mesh` does meshes.
+[[nodiscard]] PointsFile read_points(Run& run, const std::string& path);
 
 /// Throws `Failure` (usage) unless `path` has the extension of a format that can be written.
 void check_output_path(const std::string& path);

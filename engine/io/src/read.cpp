@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "file_bytes.h"
+#include "hedgerow/io/points.h"
 #include "hedgerow/io/winged_edge.h"
+#include "points.h"
 #include "read_context.h"
 #include "text_cursor.h"
 #include "wet.h"
@@ -145,6 +147,33 @@ IoResult<WingedEdgeTables> read_winged_edges(const std::filesystem::path& path,
   IoResult<Buffer<char>> bytes = read_file(path);
   if (!bytes) return tl::unexpected<IoError>(std::move(bytes.error()));
   return read_winged_edges_bytes(bytes->span(), path, options);
+}
+
+bool is_points_file(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return equals_ignoring_case(extension, ".xy") || equals_ignoring_case(extension, ".csv");
+}
+
+IoResult<PointsOutput> read_points_bytes(std::span<const char> bytes,
+                                         const std::filesystem::path& path,
+                                         const ReadOptions& options) {
+  ReadContext context{bytes, options, path, Progress(options.progress, bytes.size()), {}};
+  std::optional<Failure> failed = check_file(Format::off, context);
+  if (!failed) failed = check_is_text(bytes);
+  if (failed) return tl::unexpected<IoError>(located(std::move(*failed), context));
+  const bool is_csv = equals_ignoring_case(path.extension().string(), ".csv");
+  Parsed<std::vector<Point2>> points = is_csv ? parse_csv(context) : parse_xy(context);
+  if (!points) return tl::unexpected<IoError>(located(std::move(points.error()), context));
+  return PointsOutput{std::move(*points), std::move(context.warnings)};
+}
+
+IoResult<PointsOutput> read_points(const std::filesystem::path& path, const ReadOptions& options) {
+  if (!is_points_file(path)) {
+    return refuse(path, IoErrorCode::unknown_extension, "the extension is none of .xy .csv");
+  }
+  IoResult<Buffer<char>> bytes = read_file(path);
+  if (!bytes) return tl::unexpected<IoError>(std::move(bytes.error()));
+  return read_points_bytes(bytes->span(), path, options);
 }
 
 }  // namespace hedgerow::io

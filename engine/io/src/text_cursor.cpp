@@ -8,7 +8,8 @@
 
 namespace hedgerow::io {
 
-NumberStatus TextCursor::read_float(float& value) noexcept {
+template <class Number>
+NumberStatus TextCursor::read_number(Number& value, char separator) noexcept {
   if (at_line_end()) return NumberStatus::none;
   const char* start = position_;
   if (*start == '+') {
@@ -20,11 +21,16 @@ NumberStatus TextCursor::read_float(float& value) noexcept {
   if (error == std::errc::invalid_argument || rest == start) return NumberStatus::bad;
   const char* before = position_;
   position_ = rest;
-  if (!at_word_end()) {
+  if (!at_word_end() && !at(separator)) {
     position_ = before;
     return NumberStatus::bad;
   }
   return std::isfinite(value) ? NumberStatus::ok : NumberStatus::non_finite;
+}
+
+NumberStatus TextCursor::read_float(float& value) noexcept { return read_number(value, ' '); }
+NumberStatus TextCursor::read_double(double& value, char separator) noexcept {
+  return read_number(value, separator);
 }
 
 NumberStatus TextCursor::read_integer(std::int64_t& value) noexcept {

@@ -116,10 +116,15 @@ class TextCursor {
   /// Correctly rounded; a leading + is allowed. Stands behind the number afterwards, or where it
   /// stood if there is none. The value of a number too large is infinite.
   [[nodiscard]] NumberStatus read_float(float& value) noexcept;
+  /// The same for a double, which may also end before `separator`.
+  [[nodiscard]] NumberStatus read_double(double& value, char separator) noexcept;
   /// Decimal digits with an optional sign; what follows them is the caller's to check.
   [[nodiscard]] NumberStatus read_integer(std::int64_t& value) noexcept;
 
  private:
+  template <class Number>
+  [[nodiscard]] NumberStatus read_number(Number& value, char separator) noexcept;
+
   const char* begin_;
   const char* position_;
   const char* end_;

@@ -1,0 +1,208 @@
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "clock.h"
+#include "commands.h"
+#include "failure.h"
+#include "hedgerow/delaunay.h"
+#include "hedgerow/io/points.h"
+#include "hedgerow/triangulate.h"
+#include "mesh_file.h"
+#include "planar_output.h"
+#include "table.h"
+
+namespace hedgerow::tool {
+namespace {
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::string test = "angle-sum";
+  std::string order = "rounds";
+  std::int64_t max_flips = -1;
+};
+
+// ---- points
+
+Repeated repeated_points(const Triangulation& triangulation) {
+  const std::span<const Index> same_as = triangulation.same_as.span();
+  Repeated repeated;
+  for (std::size_t i = 0; i < same_as.size(); ++i) {
+    if (same_as[i] == static_cast<Index>(i)) continue;
+    if (repeated.count++ == 0) repeated.first = static_cast<Index>(i);
+  }
+  return repeated;
+}
+
+void print_triangulation(Run& run, const Arguments& arguments, const PointsFile& file,
+                         const Triangulation& triangulation, double ms) {
+  const Connectivity& mesh = triangulation.mesh;
+  const Index repeated = repeated_points(triangulation).count;
+  if (run.is_text()) {
+    Table table({{"Delaunay triangulation", Table::Align::left}, {"count"}});
+    table.add({"points", grouped(mesh.vertex_count())});
+    table.add({"of those, at the place of an earlier one", grouped(repeated)});
+    table.add({"triangles", grouped(mesh.face_count())});
+    table.add({"edges", grouped(edge_count(mesh))});
+    table.add({"edges of the hull", grouped(2 * edge_count(mesh) - mesh.halfedge_count())});
+    run.print(
+        fmt::format("{}\n{}: {}\n", table.text(run.colour()), arguments.output, time_text(ms)));
+    return;
+  }
+  Json json;
+  json["input"] = arguments.input;
+  json["output"] = arguments.output;
+  json["before"] = {{"points", mesh.vertex_count()}, {"repeated_points", repeated}};
+  json["after"] = {{"vertices", mesh.vertex_count()},
+                   {"faces", mesh.face_count()},
+                   {"edges", edge_count(mesh)},
+                   {"boundary_edges", 2 * edge_count(mesh) - mesh.halfedge_count()}};
+  json["timings_ms"] = {{"read", file.read_ms}, {"delaunay", ms}};
+  run.print_json(json);
+}
+
+ExitStatus triangulate_points(Run& run, const Arguments& arguments) {
+  check_planar_output_path(arguments.output);
+  run.progress().begin(3);
+  run.progress().step("reading");
+  const PointsFile file = read_points(run, arguments.input);
+  run.progress().step("triangulating");
+  const Clock clock;
+  const Result<Triangulation> triangulation = triangulate(file.points, run.execution());
+  const double ms = clock.ms();
+  if (!triangulation) throw describe(triangulation.error(), arguments.input);
+  enforce_distinct(run, file, repeated_points(*triangulation));
+  run.progress().step("writing");
+  write_planar(run, arguments.input, arguments.output,
+               {triangulation->mesh, file.points, file.points, "Delaunay triangulation"});
+  print_triangulation(run, arguments, file, *triangulation, ms);
+  return ExitStatus::done;
+}
+
+// ---- surfaces
+
+DelaunayOptions flip_options(const Arguments& arguments) {
+  DelaunayOptions options;
+  options.test = arguments.test == "in-circle" ? DelaunayTest::in_circle : DelaunayTest::angle_sum;
+  options.order = arguments.order == "queue" ? DelaunayOrder::queue : DelaunayOrder::rounds;
+  options.max_flips = arguments.max_flips;
+  return options;
+}
+
+struct Flipped {
+  DelaunayReport before;  // of a look that changes nothing
+  DelaunayReport report;
+  Connectivity mesh;
+  double ms = 0;
+};
+
+template <class Value>
+Value value_of(Result<Value>&& result, const std::string& path) {
+  if (!result) throw describe(result.error(), path);
+  return std::move(*result);
+}
+
+Flipped flip_surface(Run& run, const Arguments& arguments, const OpenedMesh& opened) {
+  const Positions positions = opened.kept.positions();
+  EditMesh mesh = value_of(EditMesh::of(opened.mesh(), run.execution()), arguments.input);
+  DelaunayOptions options = flip_options(arguments);
+  options.max_flips = 0;
+  Flipped done;
+  done.before =
+      value_of(flip_to_delaunay(mesh, positions, options, run.execution()), arguments.input);
+  const Clock clock;
+  done.report = value_of(
+      flip_to_delaunay(mesh, positions, flip_options(arguments), run.execution()), arguments.input);
+  done.ms = clock.ms();
+  // No vertex was added or removed, so positions are where they were.
+  done.mesh = value_of(mesh.compact(), arguments.input).mesh;
+  return done;
+}
+
+void print_flips(Run& run, const Arguments& arguments, const OpenedMesh& opened,
+                 const Flipped& done) {
+  const DelaunayReport& report = done.report;
+  if (run.is_text()) {
+    Table table({{"edges", Table::Align::left}, {"before"}, {"after"}});
+    table.add({"fail the test", grouped(done.before.left), grouped(report.left)});
+    table.add({"not to be judged", grouped(done.before.undefined), grouped(report.undefined)});
+    run.print(fmt::format("{}\n{}: {} flips in {}{}\n", table.text(run.colour()), arguments.output,
+                          grouped(report.flips), time_text(done.ms),
+                          report.is_cut_short ? "; stopped at --max-flips" : ""));
+    return;
+  }
+  const auto counts = [](const Connectivity& mesh, const DelaunayReport& look) -> Json {
+    return {{"vertices", mesh.vertex_count()},
+            {"faces", mesh.face_count()},
+            {"edges", edge_count(mesh)},
+            {"failing_edges", look.left},
+            {"undefined_edges", look.undefined}};
+  };
+  Json json;
+  json["input"] = arguments.input;
+  json["output"] = arguments.output;
+  json["test"] = arguments.test;
+  json["order"] = arguments.order;
+  json["before"] = counts(opened.mesh(), done.before);
+  json["after"] = counts(done.mesh, report);
+  json["flips"] = report.flips;
+  json["rounds"] = report.rounds;
+  json["cut_short"] = report.is_cut_short;
+  json["timings_ms"] = {
+      {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"delaunay", done.ms}};
+  run.print_json(json);
+}
+
+ExitStatus flip_file(Run& run, const Arguments& arguments) {
+  check_output_path(arguments.output);
+  run.progress().begin(4);
+  const OpenedMesh opened = open_mesh(run, arguments.input);
+  run.progress().step("flipping");
+  const Flipped done = flip_surface(run, arguments, opened);
+  run.progress().step("writing");
+  write_mesh(run, arguments.output,
+             soup_of(done.mesh, Buffer<float>::copy_of(opened.kept.xyz.span())));
+  print_flips(run, arguments, opened, done);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_delaunay(Program& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = program.add_command(
+      "delaunay", "Triangulate points in the plane, or flip the edges of a surface",
+      "Points (.xy or .csv) are triangulated with exact signs; vertex i is point i. A picture "
+      "(.svg)\n"
+      "shows edges and points; mesh files hold floats. Of a surface mesh, edges between triangles\n"
+      "are flipped until each passes the test, or cannot be flipped without doubling another.",
+      "hedgerow delaunay stations.csv network.svg", [arguments](Run& run) {
+        return io::is_points_file(arguments->input) ? triangulate_points(run, *arguments)
+                                                    : flip_file(run, *arguments);
+      });
+  command.add_option("IN", arguments->input, "Points (.xy, .csv) or a mesh to read")
+      ->required()
+      ->type_name("");
+  command.add_option("OUT", arguments->output, "Mesh to write; of points also .svg")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--test", arguments->test,
+                  "Of a mesh: angles across an edge, or circles by x and y, exact")
+      ->check(CLI::IsMember({"angle-sum", "in-circle"}))
+      ->type_name("")
+      ->capture_default_str();
+  command.add_option("--order", arguments->order, "Of a mesh: many flips at once, or one by one")
+      ->check(CLI::IsMember({"rounds", "queue"}))
+      ->type_name("")
+      ->capture_default_str();
+  command.add_option("--max-flips", arguments->max_flips, "Of a mesh: stop after so many")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("");
+}
+
+}  // namespace hedgerow::tool
