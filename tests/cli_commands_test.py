@@ -310,6 +310,10 @@ class Subdivide(ProgramTest):
         err = self.fails(5, "subdivide", mesh, self.path("b.ply"), "--scheme", "catmull-clark",
                          "--levels", "64")
         self.assertIn("too-many-elements", err)
+        # 24 * 4^20 half-edges: countable with 64 bits, and a hundred terabytes.
+        err = self.fails(5, "subdivide", mesh, self.path("b.ply"), "--scheme", "catmull-clark",
+                         "--levels", "20")
+        self.assertIn("out-of-memory" if cli.index_bits() == 64 else "too-many-elements", err)
         self.assertFalse(os.path.exists(self.path("b.ply")))
 
     def test_wrong_levels_and_schemes_are_usage(self):

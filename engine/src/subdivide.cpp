@@ -1,6 +1,7 @@
 #include "hedgerow/subdivide.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "float3_check.h"
@@ -50,10 +51,14 @@ Result<void> check_input(const Connectivity& mesh, const Positions& positions,
   }
   std::int64_t halfedges = face_halfedge_count(mesh);
   for (int i = 0; i < options.levels && halfedges > 0; ++i) {
-    halfedges *= is_sqrt3 ? 3 : 4;
-    if (halfedges > kMaxCount) {
-      return fail({ErrorCode::too_many_elements, kInvalidIndex, halfedges, kMaxCount});
+    const std::int64_t factor = is_sqrt3 ? 3 : 4;
+    if (halfedges > kMaxCount / factor) {
+      const bool is_told = halfedges <= std::numeric_limits<std::int64_t>::max() / factor;
+      const std::int64_t asked =
+          is_told ? halfedges * factor : std::numeric_limits<std::int64_t>::max();
+      return fail({ErrorCode::too_many_elements, kInvalidIndex, asked, kMaxCount});
     }
+    halfedges *= factor;
   }
   return detail::check_float3(positions, mesh.vertex_count());
 }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "commands.h"
 #include "failure.h"
 #include "hedgerow/subdivide.h"
+#include "machine.h"
 #include "mesh_file.h"
 #include "table.h"
 
@@ -48,10 +50,31 @@ std::string report_text(const Run& run, const Arguments& arguments, const Connec
                      arguments.levels, arguments.scheme, time_text(ms));
 }
 
+// Refuses what this machine cannot hold: a system that promises more memory than it has would end
+// the program in the middle. The finest level takes its columns and its positions, at least.
+void check_memory(const Connectivity& mesh, const Arguments& arguments) {
+  const double factor = scheme_named(arguments.scheme) == SubdivisionScheme::sqrt3 ? 3 : 4;
+  const double halfedges =
+      static_cast<double>(mesh.halfedge_count()) * std::pow(factor, arguments.levels);
+  if (halfedges > static_cast<double>(kMaxCount)) return;  // the engine refuses it by that count
+  const double needed = halfedges * (2 * sizeof(Index) + sizeof(float));
+  const auto present = static_cast<double>(describe_machine().memory_bytes);
+  if (present == 0 || needed <= present) return;
+  constexpr double kGibibyte = 1 << 30;
+  throw Failure{ExitStatus::limit,
+                arguments.input,
+                "out-of-memory",
+                fmt::format("{} levels make {:.3g} half-edges, which take at least {:.0f} GiB of "
+                            "memory; there are {:.0f}",
+                            arguments.levels, halfedges, needed / kGibibyte, present / kGibibyte),
+                {}};
+}
+
 ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
+  check_memory(opened.mesh(), arguments);
   run.progress().step("subdividing");
   const Clock clock;
   Result<SubdivisionOutput> output =
