@@ -14,7 +14,7 @@ from support import cli
 from support.cli import ProgramTest
 
 COMMANDS = ("inspect", "report", "normals", "render", "convert", "generate", "reorder", "repair",
-            "subdivide", "delaunay", "voronoi")
+            "subdivide", "decimate", "delaunay", "voronoi")
 
 
 def commands():

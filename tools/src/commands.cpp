@@ -14,6 +14,7 @@ void add_commands(Program& program) {
   add_reorder(program);
   add_repair(program);
   add_subdivide(program);
+  add_decimate(program);
   add_delaunay(program);
   add_voronoi(program);
 }

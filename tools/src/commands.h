@@ -5,6 +5,7 @@
 namespace hedgerow::tool {
 
 void add_convert(Program& program);
+void add_decimate(Program& program);
 void add_delaunay(Program& program);
 void add_generate(Program& program);
 void add_inspect(Program& program);

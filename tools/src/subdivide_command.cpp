@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "before_after.h"
 #include "clock.h"
 #include "commands.h"
 #include "failure.h"
@@ -29,25 +30,6 @@ SubdivisionScheme scheme_named(std::string_view word) {
   if (word == "loop") return SubdivisionScheme::loop;
   if (word == "sqrt3") return SubdivisionScheme::sqrt3;
   return SubdivisionScheme::catmull_clark;
-}
-
-Json counts_json(const Connectivity& mesh) {
-  return {{"vertices", mesh.vertex_count()},
-          {"faces", mesh.face_count()},
-          {"halfedges", mesh.halfedge_count()}};
-}
-
-std::string report_text(const Run& run, const Arguments& arguments, const Connectivity& before,
-                        const Connectivity& after, double ms) {
-  Table table({{"elements", Table::Align::left}, {"before"}, {"after"}});
-  const auto add = [&](const char* what, Index old_count, Index new_count) {
-    table.add({what, fmt::format("{}", old_count), fmt::format("{}", new_count)});
-  };
-  add("vertices", before.vertex_count(), after.vertex_count());
-  add("faces", before.face_count(), after.face_count());
-  add("half-edges", before.halfedge_count(), after.halfedge_count());
-  return fmt::format("{}\n{}: {} levels of {} in {}\n", table.text(run.colour()), arguments.output,
-                     arguments.levels, arguments.scheme, time_text(ms));
 }
 
 // Refuses what this machine cannot hold: a system that promises more memory than it has would end
@@ -86,7 +68,9 @@ ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
   write_mesh(run, arguments.output, soup_of(output->mesh, std::move(output->positions)));
 
   if (run.is_text()) {
-    run.print(report_text(run, arguments, opened.mesh(), output->mesh, ms));
+    run.print(fmt::format("{}\n{}: {} levels of {} in {}\n",
+                          before_after_text(opened.mesh(), output->mesh, run.colour()),
+                          arguments.output, arguments.levels, arguments.scheme, time_text(ms)));
     return ExitStatus::done;
   }
   Json json;

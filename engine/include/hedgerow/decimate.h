@@ -45,13 +45,15 @@ struct DecimateOutput {
 ///            a thousandth of its area times the squared distance to where it was is added: so the
 ///            best place is always unique, and on flat parts short edges go first.
 /// Order      By cost to within a sixteenth, then as they came to cost that. As quadrics are only
-///            ever added to, no cost falls: what has grown is found out when it comes up, and waits.
+///            ever added to, no cost falls: what has grown is found out when it comes up, and put
+///            back.
 /// Refused    What `EditMesh::can_collapse` refuses, and what would turn a corner over. Asked again
 ///            after a collapse beside it. Vertices with several fans stay, with all round them.
 /// Pre        `mesh` is sound, as `validate` says. Faces of any degree; a collapse takes a corner
 ///            from each face of its edge, and a triangle away.
 /// Not finite Positions that are not finite give costs that are not: such edges stay.
-/// Complexity O(E) places in the queue and evaluations, if valences stay small. 104 bytes of scratch a vertex and 10 an edge, besides an `EditMesh`.
+/// Complexity O(E) places in the queue and evaluations, if valences stay small. Scratch: 104 bytes a
+///            vertex and 10 an edge, besides an `EditMesh`.
 /// Errors     count_mismatch: too few positions; bad_stride; null_pointer; those of `EditMesh::of`
 ///            and `compact`. Throws std::bad_alloc.
 /// Threads    Costs at the start on those of `execution`, the rest on the calling one; same bytes.

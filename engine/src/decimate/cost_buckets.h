@@ -11,8 +11,8 @@ namespace hedgerow::decimation {
 
 /// A priority queue of edges that is exact to a sixteenth of their cost: a bucket for each such
 /// step of a float, and in each bucket first come, first served. Where a heap touches as many
-/// cache lines as it has levels, and hides what comes next, this appends; and what comes next can be
-/// fetched meanwhile.
+/// cache lines as it has levels, and hides what comes next, this appends; and what comes next can
+/// be fetched meanwhile.
 class CostBuckets {
  public:
   CostBuckets() : buckets_(kCount) {}

@@ -1,0 +1,91 @@
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "before_after.h"
+#include "clock.h"
+#include "commands.h"
+#include "failure.h"
+#include "hedgerow/decimate.h"
+#include "mesh_file.h"
+#include "table.h"
+
+namespace hedgerow::tool {
+namespace {
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::int64_t faces = 0;
+};
+
+const char* end_name(DecimateEnd end) { return end == DecimateEnd::faces ? "faces" : "refused"; }
+
+std::string report_text(const Run& run, const Arguments& arguments, const Connectivity& before,
+                        const DecimateOutput& output, double ms) {
+  std::string text = fmt::format("{}\n{}: {} collapses in {}\n",
+                                 before_after_text(before, output.mesh, run.colour()),
+                                 arguments.output, output.collapses, time_text(ms));
+  if (output.end == DecimateEnd::refused) {
+    text += fmt::format(
+        "{} faces were asked for; no other edge can be collapsed without a face "
+        "turned over or a surface joined to itself\n",
+        arguments.faces);
+  }
+  return text;
+}
+
+ExitStatus decimate_file(Run& run, const Arguments& arguments) {
+  check_output_path(arguments.output);
+  run.progress().begin(4);
+  const OpenedMesh opened = open_mesh(run, arguments.input);
+  run.progress().step("decimating");
+  const Clock clock;
+  Result<DecimateOutput> output =
+      decimate(opened.mesh(), opened.kept.positions(), {.faces = arguments.faces}, run.execution());
+  const double ms = clock.ms();
+  if (!output) throw describe(output.error(), arguments.input);
+  run.progress().step("writing");
+  write_mesh(run, arguments.output, soup_of(output->mesh, std::move(output->positions)));
+
+  if (run.is_text()) {
+    run.print(report_text(run, arguments, opened.mesh(), *output, ms));
+    return ExitStatus::done;
+  }
+  Json json;
+  json["input"] = arguments.input;
+  json["output"] = arguments.output;
+  json["faces"] = arguments.faces;
+  json["before"] = counts_json(opened.mesh());
+  json["after"] = counts_json(output->mesh);
+  json["collapses"] = output->collapses;
+  json["largest_cost"] = output->largest_cost;
+  json["ended_by"] = end_name(output->end);
+  json["timings_ms"] = {
+      {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"decimate", ms}};
+  run.print_json(json);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_decimate(Program& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = program.add_command(
+      "decimate", "Make a mesh of fewer faces that looks like it",
+      "Collapses edges, those first that move the surface least (quadric error). The outline of\n"
+      "holes is held, no face is turned over. Prints the counts before and after.",
+      "hedgerow decimate dragon.ply small.ply --faces 10000",
+      [arguments](Run& run) { return decimate_file(run, *arguments); });
+  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
+  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
+  command.add_option("--faces", arguments->faces, "How many are to be left, or fewer by one")
+      ->required()
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+}
+
+}  // namespace hedgerow::tool
