@@ -52,8 +52,8 @@ struct DecimateOutput {
 /// Pre        `mesh` is sound, as `validate` says. Faces of any degree; a collapse takes a corner
 ///            from each face of its edge, and a triangle away.
 /// Not finite Positions that are not finite give costs that are not: such edges stay.
-/// Complexity O(E) places in the queue and evaluations, if valences stay small. Scratch: 104 bytes a
-///            vertex and 10 an edge, besides an `EditMesh`.
+/// Complexity O(E) places in the queue and evaluations, if valences stay small. Scratch: 104 bytes
+///            a vertex and 10 an edge, besides an `EditMesh`.
 /// Errors     count_mismatch: too few positions; bad_stride; null_pointer; those of `EditMesh::of`
 ///            and `compact`. Throws std::bad_alloc.
 /// Threads    Costs at the start on those of `execution`, the rest on the calling one; same bytes.
