@@ -78,6 +78,7 @@ void add_all(const Plan& plan) {
   add_query(plan);
   add_validate(plan);
   add_reorder(plan);
+  add_planar(plan);
   add_representations(plan);
 }
 

@@ -6,10 +6,12 @@
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "hedgerow/build.h"
 #include "hedgerow/reorder.h"
 #include "hedgerow/shapes.h"
+#include "hedgerow/triangulate.h"
 #if defined(HEDGEROW_BENCH_IO)
 #include "hedgerow/io/read.h"
 #endif
@@ -57,6 +59,26 @@ Soup moved(Soup soup, std::int64_t per_mille) {
   return soup;
 }
 
+Soup triangulated_points(std::int64_t count) {
+  std::mt19937_64 random(kShuffleSeed);
+  std::vector<Point2> points(static_cast<std::size_t>(count));
+  Soup soup;
+  soup.xyz = Buffer<float>(3 * points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      // The bits that a float holds, so that the soup has the points that were triangulated.
+      const float value = static_cast<float>(random() >> 40U) * 0x1p-24F;
+      points[i][axis] = double{value};
+      soup.xyz[3 * i + axis] = value;
+    }
+    soup.xyz[3 * i + 2] = 0;
+  }
+  const Result<Triangulation> made = triangulate(points, Execution::serial());
+  if (!made) throw std::runtime_error(std::string("points: ") + name(made.error().code));
+  soup.corners = Buffer<Index>::copy_of(made->mesh.origin());
+  return soup;
+}
+
 }  // namespace
 
 Soup generate_soup(const std::string& shape, std::int64_t triangle_count) {
@@ -67,6 +89,7 @@ Soup generate_soup(const std::string& shape, std::int64_t triangle_count) {
   if (shape.starts_with(kMoved)) {
     return moved(generate_soup("grid", triangle_count), std::stoll(shape.substr(kMoved.size())));
   }
+  if (shape == "points") return triangulated_points(triangle_count / 2);
   // A closed fan: the vertex in the middle has as many neighbours as there are triangles.
   if (shape == "fan")
     return value_or_throw(shapes::fan(triangle_count, shapes::FanEnds::closed), shape);

@@ -12,6 +12,7 @@ namespace hedgerow::bench {
 ///   shuffled    the grid with vertices and faces renumbered at random: no order
 ///   reordered   the same, renumbered along a Hilbert curve
 ///   moved-N     the grid with N of each thousand faces put at random places: some disorder
+///   points      half as many points at random in a square, and their triangulation
 ///   fan         the closed one: its middle vertex has as many neighbours as there are triangles
 /// Seeds are fixed. Throws std::runtime_error with the reason.
 [[nodiscard]] Soup generate_soup(const std::string& shape, std::int64_t triangle_count);

@@ -39,6 +39,7 @@ Plan smoke_plan() {
   plan.all.push_back({"icosphere", 320, ""});
   plan.all.push_back({"fan", 300, ""});
   plan.disordered = {{"moved-0", 200, ""}, {"moved-400", 200, ""}};
+  plan.planar = {{"points", 200, ""}};
   plan.represented = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"icosphere", 320, ""}};
   return plan;
 }
@@ -76,6 +77,8 @@ Plan full_plan(std::int64_t largest) {
   for (const char* order : {"grid", "scan", "shuffled"}) {
     plan.large.push_back({order, 4 * kMillion, ""});
   }
+  // Ten thousand points and a million.
+  plan.planar = {{"points", 20'000, ""}, {"points", 2 * kMillion, ""}};
   const DatasetKey reordered{"reordered", 4 * kMillion, ""};
   plan.all.push_back(reordered);
   plan.large.push_back(reordered);

@@ -1,6 +1,7 @@
 // Many edits at once: those that do not meet are done together.
 #include <algorithm>
-#include <tuple>
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 #include "edit/edit.h"
@@ -12,18 +13,39 @@ namespace {
 
 constexpr Index kGrain = 1 << 12;  // flips a task
 
-/// The edge that a flip makes.
-struct NewEdge {
-  VertexId low;
-  VertexId high;
-  Index place;  // among those that were wanted
+/// The edges that the flips of a batch make: pairs of vertices, by open addressing.
+class NewEdges {
+ public:
+  explicit NewEdges(std::size_t most) : slots_(std::bit_ceil(2 * most + 1)) {}
 
-  [[nodiscard]] bool is_same(const NewEdge& other) const noexcept {
-    return low == other.low && high == other.high;
+  /// Whether it was not there.
+  bool insert(VertexId a, VertexId b) noexcept {
+    const VertexId low = std::min(a, b);
+    const VertexId high = std::max(a, b);
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = place_of(low, high) & mask;; i = (i + 1) & mask) {
+      Slot& slot = slots_[i];
+      if (!slot.low.valid()) {
+        slot = {low, high};
+        return true;
+      }
+      if (slot.low == low && slot.high == high) return false;
+    }
   }
-  friend bool operator<(const NewEdge& a, const NewEdge& b) noexcept {
-    return std::tie(a.low, a.high, a.place) < std::tie(b.low, b.high, b.place);
+
+ private:
+  struct Slot {
+    VertexId low;
+    VertexId high;
+  };
+  static std::size_t place_of(VertexId low, VertexId high) noexcept {
+    // Multiplication by odd numbers carries all bits upwards, so the upper half is taken.
+    const auto mixed = static_cast<std::uint64_t>(low.value) * 0x9e3779b97f4a7c15U ^
+                       static_cast<std::uint64_t>(high.value) * 0xc2b2ae3d27d4eb4fU;
+    return static_cast<std::size_t>(mixed >> 32U ^ mixed >> 13U);
   }
+
+  std::vector<Slot> slots_;
 };
 
 }  // namespace
@@ -42,13 +64,8 @@ class FlipBatcher {
   FlipBatch run() {
     ask();
     choose();
-    drop_equal_edges();
-    FlipBatch batch;
-    for (const Index i : rest_) batch.rest.push_back(wanted_[at(i)]);
-    for (const Index i : refused_) batch.refused.push_back(wanted_[at(i)]);
-    for (const Index i : chosen_) batch.flipped.push_back(wanted_[at(i)]);
-    batch.change = mesh_.is_recording_ ? flip_recorded() : flip_all();
-    return batch;
+    batch_.change = mesh_.is_recording_ ? flip_recorded() : flip_all();
+    return std::move(batch_);
   }
 
  private:
@@ -68,66 +85,47 @@ class FlipBatcher {
     });
   }
 
-  // In their order, each unless one before it has claimed a face of its two.
+  // In their order, each unless one before it has claimed a face of its two, or, far away, makes
+  // the same edge.
   void choose() {
     std::vector<bool> is_claimed(at(view_.face_count()));
+    NewEdges edges(wanted_.size());
     for (Index i = 0; i < count(); ++i) {
+      const HalfedgeId h = wanted_[at(i)];
       if (is_possible_[at(i)] == 0) {
-        refused_.push_back(i);
+        batch_.refused.push_back(h);
         continue;
       }
-      const HalfedgeId h = wanted_[at(i)];
+      const HalfedgeId o = view_.opposite[h];
       const std::size_t left = at(view_.face(h).value);
-      const std::size_t right = at(view_.face(view_.opposite[h]).value);
-      if (is_claimed[left] || is_claimed[right]) {
-        rest_.push_back(i);
-      } else {
-        is_claimed[left] = is_claimed[right] = true;
-        chosen_.push_back(i);
+      const std::size_t right = at(view_.face(o).value);
+      const bool is_free = !is_claimed[left] && !is_claimed[right] &&
+                           edges.insert(view_.target(view_.next(o)), view_.target(view_.next(h)));
+      if (!is_free) {
+        batch_.rest.push_back(h);
+        continue;
       }
+      is_claimed[left] = is_claimed[right] = true;
+      flips_[batch_.flipped.size()] = flips_[at(i)];
+      batch_.flipped.push_back(h);
     }
-  }
-
-  // Two flips far apart may join the same two vertices: the first of them does.
-  void drop_equal_edges() {
-    std::vector<NewEdge> edges;
-    edges.reserve(chosen_.size());
-    for (const Index i : chosen_) {
-      const HalfedgeId h = wanted_[at(i)];
-      const VertexId c = view_.target(view_.next(view_.opposite[h]));
-      const VertexId d = view_.target(view_.next(h));
-      edges.push_back({std::min(c, d), std::max(c, d), i});
-    }
-    std::sort(edges.begin(), edges.end());
-    std::vector<Index> dropped;
-    for (std::size_t k = 1; k < edges.size(); ++k) {
-      if (edges[k].is_same(edges[k - 1])) dropped.push_back(edges[k].place);
-    }
-    if (dropped.empty()) return;
-    std::sort(dropped.begin(), dropped.end());
-    std::erase_if(chosen_,
-                  [&](Index i) { return std::binary_search(dropped.begin(), dropped.end(), i); });
-    rest_.insert(rest_.end(), dropped.begin(), dropped.end());
-    std::sort(rest_.begin(), rest_.end());
+    flips_.resize(batch_.flipped.size());
   }
 
   const Change* flip_recorded() {
     Edit edit(mesh_);
-    for (const Index i : chosen_) edit.flip(wanted_[at(i)]);
+    for (const HalfedgeId h : batch_.flipped) edit.flip(h);
     return *edit.done();
   }
 
   const Change* flip_all() {
     Edit edit(mesh_);  // an empty record that says so
-    std::vector<kernels::Flip> flips;
-    flips.reserve(chosen_.size());
-    for (const Index i : chosen_) flips.push_back(flips_[at(i)]);
     const kernels::FlipColumns columns{
         mesh_.origin_.data(),   mesh_.next_.data(),  mesh_.prev_.data(),    mesh_.face_.data(),
         mesh_.outgoing_.data(), mesh_.first_.data(), mesh_.opposite_.data()};
     par::for_each_range(
-        execution_, static_cast<Index>(flips.size()), kGrain,
-        [&](IndexRange range) { kernels::scatter_flips(range, flips.data(), columns); });
+        execution_, static_cast<Index>(flips_.size()), kGrain,
+        [&](IndexRange range) { kernels::scatter_flips(range, flips_.data(), columns); });
     return *edit.done();
   }
 
@@ -137,9 +135,7 @@ class FlipBatcher {
   const Execution& execution_;
   std::vector<kernels::Flip> flips_;
   std::vector<char> is_possible_;
-  std::vector<Index> chosen_;
-  std::vector<Index> rest_;
-  std::vector<Index> refused_;
+  FlipBatch batch_;
 };
 
 FlipBatch EditMesh::flip_batch(std::span<const HalfedgeId> wanted, const Execution& execution) {
