@@ -41,7 +41,8 @@ class Delaunay(ProgramTest):
         report = self.json("delaunay", self.file("a.xy", SQUARE), out)
         self.assertEqual(report["before"], {"points": 5, "repeated_points": 0})
         self.assertEqual(report["after"],
-                         {"vertices": 5, "faces": 4, "edges": 8, "boundary_edges": 4})
+                         {"vertices": 5, "faces": 4, "edges": 8, "boundary_edges": 4,
+                          "constrained_edges": 0})
         vertices, faces = read_off(out)
         self.assertEqual(vertices[2], (4, 3, 0))
         self.assertEqual([area(vertices, face) > 0 for face in faces], [True] * 4)
@@ -69,6 +70,35 @@ class Delaunay(ProgramTest):
             error = self.fails(1, command, points, self.path("b.svg"), "--strict")
             self.assertIn("2 points", error)
             self.assertIn("point 5", error)
+
+    def test_edges_are_kept_and_drawn(self):
+        kite = self.file("kite.xy", "-2 0\n0 -1\n2 0\n0 1\n")
+        edges = self.file("edges.csv", "from,to\n0,2\n1,2\n")
+        report = self.json("delaunay", kite, self.path("a.svg"), "--edges", edges)
+        self.assertEqual(report["after"]["edges"], 5)
+        self.assertEqual(report["after"]["constrained_edges"], 2)
+        root = xml.etree.ElementTree.parse(self.path("a.svg")).getroot()
+        drawn = [path.get("d").count("M") for path in root.iter() if path.get("class")]
+        self.assertEqual(drawn, [0, 2, 3])
+        out = self.path("a.off")
+        self.done("delaunay", kite, out, "--edges", edges)
+        self.assertTrue(all({0, 2} <= set(face) for face in read_off(out)[1]))
+
+    def test_bad_edges_are_named(self):
+        square = self.file("a.xy", SQUARE)
+        for text, code in (("0 2\n1 3\n", "crossing-edges: edge 1 crosses edge 0"),
+                           ("0 1\n0 5\n", "index-out-of-range: edge 1 refers to point 5"),
+                           ("0 -1\n", "index-out-of-range: edge 0 refers to point -1"),
+                           ("2 2\n", "repeated-vertex: edge 0"),
+                           ("0 1.5\n", "bad-number: edge 0"), ("0 1e30\n", "bad-number: edge 0"),
+                           ("0\n", "missing-value")):
+            edges = self.file("edges.xy", text)
+            error = self.fails(3, "delaunay", square, self.path("a.svg"), "--edges", edges)
+            self.assertIn("edges.xy", error)
+            self.assertIn(code, error)
+        self.fails(3, "delaunay", square, self.path("a.svg"), "--edges", self.path("none.xy"))
+        mesh = self.file("a.obj", cli.TETRAHEDRON)
+        self.fails(2, "delaunay", mesh, self.path("a.ply"), "--edges", edges)
 
     def test_every_thread_count_writes_the_same_bytes(self):
         points = self.file("a.xy", random_points(30000))

@@ -29,6 +29,7 @@ constexpr const char* kErrorNames[] = {"index-out-of-range",
                                        "needs-padding",
                                        "ray-library",
                                        "coordinate-out-of-range",
+                                       "crossing-edges",
                                        "site-outside-box"};
 static_assert(std::size(kErrorNames) == static_cast<std::size_t>(ErrorCode::site_outside_box) + 1);
 

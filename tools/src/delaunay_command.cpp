@@ -1,6 +1,10 @@
+#include <array>
+#include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,6 +25,7 @@ namespace {
 struct Arguments {
   std::string input;
   std::string output;
+  std::string edges;
   std::string test = "angle-sum";
   std::string order = "rounds";
   std::int64_t max_flips = -1;
@@ -28,8 +33,7 @@ struct Arguments {
 
 // ---- points
 
-Repeated repeated_points(const Triangulation& triangulation) {
-  const std::span<const Index> same_as = triangulation.same_as.span();
+Repeated repeated_points(std::span<const Index> same_as) {
   Repeated repeated;
   for (std::size_t i = 0; i < same_as.size(); ++i) {
     if (same_as[i] == static_cast<Index>(i)) continue;
@@ -38,17 +42,80 @@ Repeated repeated_points(const Triangulation& triangulation) {
   return repeated;
 }
 
+// A file of edges is one of points whose coordinates are numbers of points.
+std::vector<std::array<Index, 2>> read_edges(Run& run, const std::string& path) {
+  std::vector<std::array<Index, 2>> edges;
+  for (const Point2& row : read_points(run, path).points) {
+    std::array<Index, 2>& edge = edges.emplace_back();
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (std::abs(row[end]) > 1e9 || row[end] != std::floor(row[end])) {
+        throw Failure{ExitStatus::input,
+                      path,
+                      "bad-number",
+                      fmt::format("edge {} has the end {}, which is not the number of a point",
+                                  edges.size() - 1, row[end]),
+                      {}};
+      }
+      edge[end] = static_cast<Index>(row[end]);
+    }
+  }
+  return edges;
+}
+
+Failure describe_edges(const Error& error, const Arguments& arguments) {
+  const auto failed = [&](std::string message) {
+    return Failure{ExitStatus::input, arguments.edges, name(error.code), std::move(message), {}};
+  };
+  switch (error.code) {
+    case ErrorCode::index_out_of_range:
+      return failed(fmt::format("edge {} refers to point {}, but there are {} points",
+                                error.element, error.value, error.limit));
+    case ErrorCode::repeated_vertex:
+      return failed(
+          fmt::format("edge {} ends where it begins, at point {}", error.element, error.value));
+    case ErrorCode::crossing_edges:
+      return failed(fmt::format("edge {} crosses edge {}", error.element, error.value));
+    default:
+      return describe(error, arguments.input);
+  }
+}
+
+ConstrainedTriangulation triangulation_of(Run& run, const Arguments& arguments,
+                                          const PointsFile& file,
+                                          std::span<const std::array<Index, 2>> edges) {
+  if (arguments.edges.empty()) {
+    Result<Triangulation> made = triangulate(file.points, run.execution());
+    if (!made) throw describe(made.error(), arguments.input);
+    return {std::move(made->mesh), std::move(made->same_as), {}};
+  }
+  Result<ConstrainedTriangulation> made =
+      triangulate_constrained(file.points, edges, run.execution());
+  if (!made) throw describe_edges(made.error(), arguments);
+  return std::move(*made);
+}
+
+// Both sides of an inner edge are listed, and the one side of an edge of the hull.
+Index constrained_edge_count(const ConstrainedTriangulation& made) {
+  Index sides = 0;
+  for (const Index h : made.constrained) {
+    sides += made.mesh.opposite()[static_cast<std::size_t>(h)] == kInvalidIndex ? 2 : 1;
+  }
+  return sides / 2;
+}
+
 void print_triangulation(Run& run, const Arguments& arguments, const PointsFile& file,
-                         const Triangulation& triangulation, double ms) {
-  const Connectivity& mesh = triangulation.mesh;
-  const Index repeated = repeated_points(triangulation).count;
+                         const ConstrainedTriangulation& made, double ms) {
+  const Connectivity& mesh = made.mesh;
+  const Index repeated = repeated_points(made.same_as.span()).count;
+  const Index hull = 2 * edge_count(mesh) - mesh.halfedge_count();
   if (run.is_text()) {
     Table table({{"Delaunay triangulation", Table::Align::left}, {"count"}});
     table.add({"points", grouped(mesh.vertex_count())});
     table.add({"of those, at the place of an earlier one", grouped(repeated)});
     table.add({"triangles", grouped(mesh.face_count())});
     table.add({"edges", grouped(edge_count(mesh))});
-    table.add({"edges of the hull", grouped(2 * edge_count(mesh) - mesh.halfedge_count())});
+    table.add({"of those, of the hull", grouped(hull)});
+    table.add({"of those, constrained", grouped(constrained_edge_count(made))});
     run.print(
         fmt::format("{}\n{}: {}\n", table.text(run.colour()), arguments.output, time_text(ms)));
     return;
@@ -60,7 +127,8 @@ void print_triangulation(Run& run, const Arguments& arguments, const PointsFile&
   json["after"] = {{"vertices", mesh.vertex_count()},
                    {"faces", mesh.face_count()},
                    {"edges", edge_count(mesh)},
-                   {"boundary_edges", 2 * edge_count(mesh) - mesh.halfedge_count()}};
+                   {"boundary_edges", hull},
+                   {"constrained_edges", constrained_edge_count(made)}};
   json["timings_ms"] = {{"read", file.read_ms}, {"delaunay", ms}};
   run.print_json(json);
 }
@@ -70,16 +138,18 @@ ExitStatus triangulate_points(Run& run, const Arguments& arguments) {
   run.progress().begin(3);
   run.progress().step("reading");
   const PointsFile file = read_points(run, arguments.input);
+  std::vector<std::array<Index, 2>> edges;
+  if (!arguments.edges.empty()) edges = read_edges(run, arguments.edges);
   run.progress().step("triangulating");
   const Clock clock;
-  const Result<Triangulation> triangulation = triangulate(file.points, run.execution());
+  const ConstrainedTriangulation made = triangulation_of(run, arguments, file, edges);
   const double ms = clock.ms();
-  if (!triangulation) throw describe(triangulation.error(), arguments.input);
-  enforce_distinct(run, file, repeated_points(*triangulation));
+  enforce_distinct(run, file, repeated_points(made.same_as.span()));
   run.progress().step("writing");
-  write_planar(run, arguments.input, arguments.output,
-               {triangulation->mesh, file.points, file.points, "Delaunay triangulation"});
-  print_triangulation(run, arguments, file, *triangulation, ms);
+  write_planar(
+      run, arguments.input, arguments.output,
+      {made.mesh, file.points, file.points, made.constrained.span(), "Delaunay triangulation"});
+  print_triangulation(run, arguments, file, made, ms);
   return ExitStatus::done;
 }
 
@@ -159,6 +229,13 @@ void print_flips(Run& run, const Arguments& arguments, const OpenedMesh& opened,
 
 ExitStatus flip_file(Run& run, const Arguments& arguments) {
   check_output_path(arguments.output);
+  if (!arguments.edges.empty()) {
+    throw Failure{ExitStatus::usage,
+                  "hedgerow",
+                  "usage",
+                  "--edges is for points (.xy, .csv); a surface has its edges",
+                  {}};
+  }
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
   run.progress().step("flipping");
@@ -189,6 +266,11 @@ void add_delaunay(Program& program) {
       ->type_name("");
   command.add_option("OUT", arguments->output, "Mesh to write; of points also .svg")
       ->required()
+      ->type_name("");
+  command
+      .add_option("--edges", arguments->edges,
+                  "Of points: edges to have, as a file (.xy, .csv) of two numbers of points a "
+                  "line, from 0")
       ->type_name("");
   command
       .add_option("--test", arguments->test,

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "failure.h"
-#include "planar_picture.h"
 #include "table.h"
 
 namespace hedgerow::tool {
@@ -51,7 +51,7 @@ void check_planar_output_path(const std::string& path) {
 void write_planar(Run& run, const std::string& input, const std::string& output,
                   const PlanarDrawing& drawing) {
   if (is_picture_path(output)) {
-    write_text(output, planar_svg(drawing.mesh, drawing.vertices, drawing.dots, drawing.title));
+    write_text(output, planar_svg(drawing));
   } else {
     write_mesh(run, output, soup_of(drawing.mesh, flat_positions(input, drawing.vertices)));
   }

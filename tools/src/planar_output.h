@@ -1,11 +1,10 @@
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "hedgerow/connectivity.h"
-#include "hedgerow/point2.h"
 #include "mesh_file.h"
+#include "planar_picture.h"
 #include "run.h"
 
 namespace hedgerow::tool {
@@ -14,14 +13,6 @@ namespace hedgerow::tool {
 [[nodiscard]] bool is_picture_path(const std::string& path);
 /// Throws `Failure` (usage) unless `path` has the extension of a mesh that can be written, or .svg.
 void check_planar_output_path(const std::string& path);
-
-/// A mesh in the plane: its vertices, what a picture dots, and what the picture is called.
-struct PlanarDrawing {
-  const Connectivity& mesh;
-  std::span<const Point2> vertices;
-  std::span<const Point2> dots;
-  std::string title;
-};
 
 /// Writes a picture, or a mesh with z = 0. Throws `Failure`; naming `input` where a coordinate is
 /// too large for the floats of a mesh file.

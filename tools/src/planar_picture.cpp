@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -48,13 +49,31 @@ class Frame {
   double scale_ = 1;
 };
 
+struct EdgeStyle {
+  const char* name;
+  const char* colour;
+  double width;  // in radii of a dot
+};
+constexpr EdgeStyle kStyles[] = {
+    {"edges", "#3a6ea5", 0.35}, {"constrained", "#d07000", 0.8}, {"boundary", "#222222", 0.6}};
+
+// The place of an edge's style, by half-edge.
+std::vector<unsigned char> find_styles(const PlanarDrawing& drawing) {
+  std::vector<unsigned char> styles(drawing.mesh.opposite().size(), 0);
+  for (std::size_t h = 0; h < styles.size(); ++h) {
+    if (drawing.mesh.opposite()[h] == kInvalidIndex) styles[h] = 2;
+  }
+  for (const Index h : drawing.constrained) styles[static_cast<std::size_t>(h)] = 1;
+  return styles;
+}
+
 template <class Mesh>
 std::string edge_path(const Mesh& mesh, std::span<const Point2> vertices, const Frame& frame,
-                      bool is_boundary) {
+                      const std::vector<unsigned char>& styles, unsigned style) {
   std::string path;
   for (HalfedgeId h(0); h.value < mesh.halfedge_count(); ++h.value) {
     const HalfedgeId o = mesh.opposite[h];
-    if (o.valid() == is_boundary || (o.valid() && o < h)) continue;
+    if (styles[static_cast<std::size_t>(h.value)] != style || (o.valid() && o < h)) continue;
     const Point2& a = vertices[static_cast<std::size_t>(mesh.origin[h].value)];
     const Point2& b = vertices[static_cast<std::size_t>(mesh.target(h).value)];
     fmt::format_to(std::back_inserter(path), "M{:.6g} {:.6g}L{:.6g} {:.6g}\n", frame.x(a),
@@ -63,45 +82,30 @@ std::string edge_path(const Mesh& mesh, std::span<const Point2> vertices, const 
   return path;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      // Other bytes might be no UTF-8, or a control character, which XML does not allow.
-      out += c >= ' ' && c <= '~' ? c : '?';
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
-std::string planar_svg(const Connectivity& mesh, std::span<const Point2> vertices,
-                       std::span<const Point2> dots, const std::string& title) {
-  const Frame frame(vertices, dots);
+std::string planar_svg(const PlanarDrawing& drawing) {
+  const Frame frame(drawing.vertices, drawing.dots);
   // Dots that do not run together.
   const double radius =
-      std::clamp(0.15 * kSize / std::sqrt(static_cast<double>(dots.size()) + 1), 0.2, 4.0);
+      std::clamp(0.15 * kSize / std::sqrt(static_cast<double>(drawing.dots.size()) + 1), 0.2, 4.0);
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.6g} {:.6g}\" width=\"{:.6g}\" "
       "height=\"{:.6g}\">\n<title>{}</title>\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n",
-      frame.width(), frame.height(), frame.width(), frame.height(), escaped(title));
-  mesh.visit([&](const auto& view) {
-    for (const bool is_boundary : {false, true}) {
+      frame.width(), frame.height(), frame.width(), frame.height(), drawing.title);
+  const std::vector<unsigned char> styles = find_styles(drawing);
+  drawing.mesh.visit([&](const auto& mesh) {
+    for (unsigned style = 0; style < std::size(kStyles); ++style) {
       svg += fmt::format(
           "<path class=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3g}\" "
           "stroke-linecap=\"round\" d=\"\n{}\"/>\n",
-          is_boundary ? "boundary" : "edges", is_boundary ? "#222222" : "#3a6ea5",
-          (is_boundary ? 0.6 : 0.35) * radius, edge_path(view, vertices, frame, is_boundary));
+          kStyles[style].name, kStyles[style].colour, kStyles[style].width * radius,
+          edge_path(mesh, drawing.vertices, frame, styles, style));
     }
   });
-  svg += fmt::format("<g fill=\"#c0392b\">\n");
-  for (const Point2& p : dots) {
+  svg += "<g fill=\"#c0392b\">\n";
+  for (const Point2& p : drawing.dots) {
     fmt::format_to(std::back_inserter(svg), "<circle cx=\"{:.6g}\" cy=\"{:.6g}\" r=\"{:.3g}\"/>\n",
                    frame.x(p), frame.y(p), radius);
   }

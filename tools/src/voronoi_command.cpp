@@ -118,9 +118,12 @@ ExitStatus write_voronoi(Run& run, const Arguments& arguments) {
   if (!diagram) throw describe(diagram.error(), arguments.input);
   enforce_distinct(run, file, repeated_points(file, *diagram));
   run.progress().step("writing");
-  write_planar(
-      run, arguments.input, arguments.output,
-      {diagram->mesh, diagram->points.span(), distinct_points(file, *diagram), "Voronoi diagram"});
+  write_planar(run, arguments.input, arguments.output,
+               {diagram->mesh,
+                diagram->points.span(),
+                distinct_points(file, *diagram),
+                {},
+                "Voronoi diagram"});
   print_report(run, arguments, file, box, *diagram, ms);
   return ExitStatus::done;
 }

@@ -34,6 +34,7 @@ enum class ErrorCode : std::uint8_t {
   ray_library,         ///< value = the error code of the ray-tracing library
   coordinate_out_of_range,  ///< element = point; value = 0 for x, 1 for y; exact signs need it
                             ///< finite, and 0 or of a magnitude from 2^-limit to 2^limit
+  crossing_edges,           ///< element = given edge; value = the earlier one that it crosses
   site_outside_box,         ///< element = site; value = 0 for x, 1 for y
 };
 
