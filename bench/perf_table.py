@@ -6,6 +6,8 @@
       rewrites the tables (bench/count.py makes counts.json, bench/perf_plots.py the pictures)
   perf_table.py --representations PROG [--rounds 3]
       the same for what all representations are asked: bench/results/representations.json
+  perf_table.py --planar PROG [--rounds 5]
+      the same for triangulations and flips: bench/results/planar.json
   perf_table.py                 rewrites the tables from the stored results
   perf_table.py --check         exit status 1 if the tables are not those of the stored results
   perf_table.py --targets PROG  measures only what the tables of targets need, and prints them
@@ -21,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 
+from perf_planar import PATTERN, PLANAR, planar_tables
 from perf_representations import REPRESENTATIONS, read_representations, representation_tables
 from perf_results import FOLDER, Results, merge, read_counts, read_results, write_document
 from perf_results import RESULTS
@@ -57,11 +60,13 @@ def main(arguments):
     parser.add_argument("--measure", metavar="PROGRAM")
     parser.add_argument("--targets", metavar="PROGRAM")
     parser.add_argument("--representations", metavar="PROGRAM")
+    parser.add_argument("--planar", metavar="PROGRAM")
     parser.add_argument("--mesh", action="append", default=[], help="also measure on this mesh")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS)
     parser.add_argument("--answers", type=pathlib.Path, default=REPRESENTATIONS)
+    parser.add_argument("--flat", type=pathlib.Path, default=PLANAR, help="results of --planar")
     parser.add_argument("--perf", type=pathlib.Path, default=PERF)
     parser.add_argument("--readme", type=pathlib.Path, default=README)
     options = parser.parse_args(arguments)
@@ -79,6 +84,9 @@ def main(arguments):
     if options.representations:
         answers = run(options.representations, ["--representations", *measured])
         write_document(answers, options.answers)
+    if options.planar:
+        flat = run(options.planar, ["--rounds", str(options.rounds), "--filter", PATTERN])
+        write_document(flat, options.flat)
     return write_pages(options)
 
 
@@ -86,7 +94,9 @@ def write_pages(options):
     """Rewrites or checks each page; returns the exit status."""
     results, counts = read_results(options.results), read_counts()
     answers = read_representations(options.answers)
-    pages = {options.perf: [(results, all_tables()), (answers, representation_tables())],
+    flat = read_results(options.flat)
+    pages = {options.perf: [(results, all_tables()), (answers, representation_tables()),
+                            (flat, planar_tables())],
              options.readme: [(results, readme_tables())]}
     status = 0
     for page, parts in pages.items():

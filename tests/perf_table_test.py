@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "bench")
 
 import count  # noqa: E402
 import perf_format  # noqa: E402
+import perf_planar  # noqa: E402
 import perf_representations  # noqa: E402
 import perf_results  # noqa: E402
 import perf_table  # noqa: E402
@@ -255,6 +256,28 @@ class Representations(unittest.TestCase):
         self.assertNotIn("8.00", other)
 
 
+class Planar(unittest.TestCase):
+    def found(self):
+        return results(entry("triangulate/points/2M/1", 400, points=1_000_000),
+                       entry("triangulate/points/2M/1/cgal", 800, points=1_000_000),
+                       entry("flip/points/20k/1", 2, flips=10_000),
+                       entry("build/grid/4M/1", 20))
+
+    def test_rates_are_elements_by_time(self):
+        table = perf_planar.planar_table(self.found(), NO_COUNTS)
+        self.assertIn("| triangulate/points/2M | 1 | 400 | 0 % | points | 2.50 |", table)
+        self.assertIn("| flip/points/20k | 1 | 2.00 | 0 % | flips | 5.00 |", table)
+        self.assertNotIn("build", table)
+
+    def test_targets_are_judged(self):
+        lines = perf_tables.targets_table(perf_planar.PLANAR_TARGETS)(
+            self.found(), NO_COUNTS).splitlines()
+        self.assertTrue(lines[2].endswith("| 2.50 M points/s | moonshot |"))
+        self.assertTrue(lines[3].endswith("| 2.00 x | met |"))
+        self.assertTrue(lines[4].endswith("| 5.00 M flips/s | **missed** |"))
+        self.assertTrue(lines[5].endswith("|  | not measured |"))
+
+
 class Rewrite(unittest.TestCase):
     def text(self, names):
         return "".join(f"prose of {name}\n<!-- table:{name} begin -->\nold\n"
@@ -280,7 +303,8 @@ class Rewrite(unittest.TestCase):
             perf = pathlib.Path(folder) / "PERF.md"
             stored = pathlib.Path(folder) / "results.json"
             perf_results.write_document(document(entry("build/grid/4M/1", 20)), stored)
-            names = [*perf_tables.all_tables(), *perf_representations.representation_tables()]
+            names = [*perf_tables.all_tables(), *perf_representations.representation_tables(),
+                     *perf_planar.planar_tables()]
             perf.write_text(self.text(names), encoding="utf-8")
             readme = pathlib.Path(folder) / "README.md"
             readme.write_text(self.text(perf_tables.readme_tables()), encoding="utf-8")

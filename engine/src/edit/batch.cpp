@@ -120,9 +120,7 @@ class FlipBatcher {
 
   const Change* flip_all() {
     Edit edit(mesh_);  // an empty record that says so
-    const kernels::FlipColumns columns{
-        mesh_.origin_.data(),   mesh_.next_.data(),  mesh_.prev_.data(),    mesh_.face_.data(),
-        mesh_.outgoing_.data(), mesh_.first_.data(), mesh_.opposite_.data()};
+    const kernels::FlipColumns columns = edit.flip_columns();
     par::for_each_range(
         execution_, static_cast<Index>(flips_.size()), kGrain,
         [&](IndexRange range) { kernels::scatter_flips(range, flips_.data(), columns); });

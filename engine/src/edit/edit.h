@@ -4,6 +4,7 @@
 
 #include "hedgerow/circulate.h"
 #include "hedgerow/edit.h"
+#include "kernels/flip_edges.h"
 
 namespace hedgerow {
 
@@ -54,6 +55,9 @@ class Edit {
 
   /// Turns the edge of h by one corner. \pre can_flip
   void flip(HalfedgeId h);
+  /// For many at once, without a record.
+  [[nodiscard]] kernels::Flip flip_of(HalfedgeId h) const noexcept;
+  [[nodiscard]] kernels::FlipColumns flip_columns() noexcept;
 
   /// The vertex starts its rotation at `h`, or on the boundary if it has one (I6).
   void settle(VertexId v, HalfedgeId h);

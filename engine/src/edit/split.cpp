@@ -23,7 +23,23 @@ EditCheck EditMesh::can_flip(HalfedgeId h) const {
   return test.has_one_fan({mesh.origin[h], mesh.origin[o], c, d});
 }
 
+kernels::Flip Edit::flip_of(HalfedgeId h) const noexcept {
+  const HalfedgeId o = opposite(h);
+  return {h.value, outgoing(origin(h)) == h, outgoing(origin(o)) == o};
+}
+
+kernels::FlipColumns Edit::flip_columns() noexcept {
+  return {m_.origin_.data(),   m_.next_.data(),  m_.prev_.data(),    m_.face_.data(),
+          m_.outgoing_.data(), m_.first_.data(), m_.opposite_.data()};
+}
+
 void Edit::flip(HalfedgeId h) {
+  if (!m_.is_recording_) {
+    // Half of the time is that of choosing the column for each entry.
+    const kernels::Flip one = flip_of(h);
+    kernels::scatter_flips({0, 1}, &one, flip_columns());
+    return;
+  }
   const HalfedgeId o = opposite(h);
   const HalfedgeId n = next(h);
   const HalfedgeId m = next(o);

@@ -1,0 +1,58 @@
+"""The tables of triangulations, cells and flips, which are measured by themselves."""
+
+from perf_format import markdown, number, percent
+from perf_results import FOLDER
+from perf_tables import targets_table
+from perf_targets import SERIAL, Target, name, times_faster
+
+PLANAR = FOLDER / "results" / "planar.json"
+PATTERN = "^(triangulate|voronoi|flip)/"
+MILLION, IN_CACHE = "points/2M", "points/20k"  # by triangles: a million points, ten thousand
+# What each operation is counted by.
+ELEMENTS = {"triangulate": "points", "voronoi": "points", "flip": "flips"}
+
+
+def rate(element, *row_name):
+    """Millions of elements a second."""
+    def value(results, _counts):
+        row = results.get(name(*row_name))
+        return row[element] / row.ns * 1e3 if row else None
+    return value
+
+
+PLANAR_TARGETS = (
+    Target("planar Delaunay, 1M uniform points, exact, 1 thread",
+           rate("points", "triangulate", MILLION, SERIAL), 1.0, 2.5, "M points/s"),
+    Target("the same, times faster than CGAL",
+           times_faster(("triangulate", MILLION, SERIAL), ("cgal",)), 1, None),
+    Target("flips, in cache, 1 thread", rate("flips", "flip", IN_CACHE, SERIAL), 10, 30, "M flips/s"),
+    Target("flips in batches, in cache, 1 thread",
+           rate("flips", "flip", IN_CACHE, SERIAL, "batch"), 10, 30, "M flips/s"),
+)
+
+
+def planar_table(results, _counts):
+    body = []
+    for row in results:
+        if row.operation not in ELEMENTS:
+            continue
+        if not row.times_ns:
+            body.append([row.label, str(row.threads), f"not measured: {row.error}"])
+            continue
+        element = ELEMENTS[row.operation]
+        body.append([row.label, str(row.threads), number(row.ns / 1e6), percent(row.spread), element,
+                     number(row[element] / row.ns * 1e3)])
+    return markdown(["benchmark", "threads", "ms", "spread", "of", "M/s"], body)
+
+
+def planar_machine_table(results, _counts):
+    context = results.context
+    names = (("processor", "cpu"), ("compiler", "compiler"), ("peers", "peers"), ("date", "date"),
+             ("rounds", "rounds"))
+    return markdown(["", ""], [[title, str(context[key])] for title, key in names if key in context],
+                    left=2)
+
+
+def planar_tables():
+    return {"planar-machine": planar_machine_table, "planar-targets": targets_table(PLANAR_TARGETS),
+            "planar": planar_table}
