@@ -47,15 +47,16 @@ struct ConstrainedTriangulation {
 };
 
 /// The same with given edges, from point to point: as near to Delaunay as they let it be. No point
-/// that can be seen from inside a triangle, across none of these edges, is inside its circle. An edge
-/// that passes points on its way becomes several. Points on one line have no faces, so no edges.
+/// that can be seen from inside a triangle, across none of these edges, is inside its circle. An
+/// edge that passes points on its way becomes several. Points on one line have no faces, so no
+/// edges.
 ///
 /// After S. Sloan, "A fast algorithm for generating constrained Delaunay triangulations", 1993.
 ///
 /// Complexity As `triangulate`; besides, for each given edge, the square of the edges that it
 ///            crosses at the worst. On the calling thread.
-/// Errors     As `triangulate`; index_out_of_range: element = edge, value = the point, limit = their
-///            number; repeated_vertex: element = edge, value = its end, where it begins, too;
+/// Errors     As `triangulate`; index_out_of_range: element = edge, value = the point, limit =
+///            their number; repeated_vertex: element = edge, value = its end, where it begins, too;
 ///            crossing_edges: element = edge, value = an earlier one that it crosses. Throws
 ///            std::bad_alloc. On either, nothing has happened.
 [[nodiscard]] Result<ConstrainedTriangulation> triangulate_constrained(
