@@ -351,5 +351,33 @@ class Decimate(ProgramTest):
         self.assertFalse(os.path.exists(self.path("b.ply")))
 
 
+class Smooth(ProgramTest):
+    def test_a_spike_is_pulled_in_and_the_outline_stays(self):
+        mesh = self.file("a.obj", cli.shuffled_grid(6))
+        for options in ((), ("--in-place",), ("--weights", "cotangent", "--step", "0.5")):
+            report = self.json("smooth", mesh, self.path("b.obj"), "--iterations", "3", *options)
+            self.assertEqual(report["before"], report["after"])
+            self.assertTrue(0 < report["moved_vertices"] <= 25)
+            self.assertGreater(report["largest_move"], 0)
+        self.assertEqual(report["update"], "double-buffered")
+
+    def test_no_iteration_is_a_copy(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        text = self.done("smooth", mesh, self.path("b.obj"), "--iterations", "0")
+        self.assertIn("0 of 8 vertices moved", text)
+
+    def test_cotangents_want_triangles(self):
+        err = self.fails(3, "smooth", self.file("a.obj", cli.CUBE), self.path("b.obj"),
+                         "--iterations", "1", "--weights", "cotangent")
+        self.assertIn("face 0 has 4 corners", err)
+        self.assertFalse(os.path.exists(self.path("b.obj")))
+
+    def test_wrong_numbers_are_usage(self):
+        mesh = self.file("a.obj", cli.CUBE)
+        for arguments in ((), ("--iterations", "-1"), ("--iterations", "1", "--step", "0"),
+                          ("--iterations", "1", "--step", "1.5"), ("--iterations", "1", "--weights", "x")):
+            self.fails(2, "smooth", mesh, self.path("b.ply"), *arguments)
+
+
 if __name__ == "__main__":
     cli.main(sys.argv)

@@ -14,7 +14,7 @@ from support import cli
 from support.cli import ProgramTest
 
 COMMANDS = ("inspect", "report", "normals", "render", "convert", "generate", "reorder", "repair",
-            "subdivide", "decimate", "delaunay", "voronoi")
+            "subdivide", "decimate", "smooth", "delaunay", "voronoi")
 
 
 def commands():

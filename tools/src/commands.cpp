@@ -15,6 +15,7 @@ void add_commands(Program& program) {
   add_repair(program);
   add_subdivide(program);
   add_decimate(program);
+  add_smooth(program);
   add_delaunay(program);
   add_voronoi(program);
 }

@@ -15,6 +15,7 @@ void add_reorder(Program& program);
 void add_repair(Program& program);
 void add_report(Program& program);
 void add_voronoi(Program& program);
+void add_smooth(Program& program);
 void add_subdivide(Program& program);
 
 /// All commands, in the order of the help.
