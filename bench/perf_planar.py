@@ -6,10 +6,11 @@ from perf_tables import targets_table
 from perf_targets import SERIAL, Target, name, times_faster
 
 PLANAR = FOLDER / "results" / "planar.json"
-PATTERN = "^(triangulate|voronoi|flip)/"
+PATTERN = "^(triangulate|voronoi|flip|delaunay)/"
 MILLION, IN_CACHE = "points/2M", "points/20k"  # by triangles: a million points, ten thousand
 # What each operation is counted by.
-ELEMENTS = {"triangulate": "points", "voronoi": "points", "flip": "flips"}
+ELEMENTS = {"triangulate": "points", "voronoi": "points", "flip": "flips",
+            "delaunay": "flips"}
 
 
 def rate(element, *row_name):
@@ -20,6 +21,11 @@ def rate(element, *row_name):
     return value
 
 
+def accepted(results, _counts):
+    row = results.get(name("delaunay", "terrain/2M", SERIAL))
+    return row["accepted_percent"] if row else None
+
+
 PLANAR_TARGETS = (
     Target("planar Delaunay, 1M uniform points, exact, 1 thread",
            rate("points", "triangulate", MILLION, SERIAL), 1.0, 2.5, "M points/s"),
@@ -28,6 +34,7 @@ PLANAR_TARGETS = (
     Target("flips, in cache, 1 thread", rate("flips", "flip", IN_CACHE, SERIAL), 10, 30, "M flips/s"),
     Target("flips in batches, in cache, 1 thread",
            rate("flips", "flip", IN_CACHE, SERIAL, "batch"), 10, 30, "M flips/s"),
+    Target("parallel rounds on a terrain, candidates accepted", accepted, 90, None, "%"),
 )
 
 

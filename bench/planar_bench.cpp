@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -150,6 +151,58 @@ void add_flips(const DatasetKey& key, const Plan& plan) {
   }
 }
 
+/// Made anew between the runs, for each leaves nothing to flip.
+Work prepare_surface(const Dataset& data, const Execution& execution, DelaunayOrder order) {
+  auto mesh = std::make_shared<EditMesh>();
+  auto report = std::make_shared<DelaunayReport>();
+  const auto renew = [&data, mesh] { *mesh = std::move(*EditMesh::of(data.mesh, Execution())); };
+  renew();
+  Work work;
+  work.run = [&data, mesh, report, execution, order] {
+    DelaunayOptions options;
+    options.order = order;
+    const auto result = flip_to_delaunay(*mesh, data.positions(), options, execution);
+    *report = result.value_or(DelaunayReport{});
+  };
+  work.cleanup = renew;
+  work.check = [report] {
+    return report->flips > 0 && report->left == 0 ? "" : "edges are left; not measured";
+  };
+  work.digest = [mesh] {
+    const auto origin = mesh->view().origin;
+    return digest_of(std::span(origin.data(), static_cast<std::size_t>(origin.size())));
+  };
+  work.notes = [report]() -> Notes {
+    const auto candidates = static_cast<double>(report->candidates);
+    const auto accepted = static_cast<double>(report->candidates - report->postponed);
+    return {{"flips", static_cast<double>(report->flips)},
+            {"accepted_percent", 100 * accepted / candidates}};
+  };
+  return work;
+}
+
+/// Reads and writes what a flip does, about one a vertex; tests read each edge's four points.
+Traffic surface_traffic(const Dataset& data) {
+  const auto [halfedges, vertices, faces] = counts_of(data);
+  return {kIndexBytes * 4 * halfedges + kPointBytes * vertices, kIndexBytes * 26 * vertices};
+}
+
+void add_surface(const Plan& plan) {
+  const DatasetKey key{"terrain", plan.is_smoke ? 200 : 2'000'000, ""};
+  add({"delaunay", key, 1, "queue",
+       [](const Dataset& data, const Execution& execution) {
+         return prepare_surface(data, execution, DelaunayOrder::queue);
+       },
+       surface_traffic, Mix::copy});
+  for (const int threads : plan.threads) {
+    add({"delaunay", key, threads, "",
+         [](const Dataset& data, const Execution& execution) {
+           return prepare_surface(data, execution, DelaunayOrder::rounds);
+         },
+         surface_traffic, Mix::copy});
+  }
+}
+
 }  // namespace
 
 void add_planar(const Plan& plan) {
@@ -166,6 +219,7 @@ void add_planar(const Plan& plan) {
     add({"voronoi", key, 1, "", prepare_voronoi, triangulation_traffic, Mix::triad});
     add_flips(key, plan);
   }
+  if (!plan.planar.empty()) add_surface(plan);
 }
 
 }  // namespace hedgerow::bench

@@ -119,6 +119,7 @@ class Delaunay(ProgramTest):
             self.assertGreater(report["before"]["failing_edges"], 100)
             self.assertEqual(report["after"]["failing_edges"], 0)
             self.assertGreater(report["flips"], 100)
+            self.assertGreaterEqual(report["candidates"], report["flips"] + report["postponed"])
             self.assertEqual(report["before"]["edges"], report["after"]["edges"])
             after = self.json("inspect", out)
             self.assertEqual((after["faces"], after["manifold"]), (report["after"]["faces"], True))

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hedgerow/io/points.h"
 #include "hedgerow/io/read.h"
 #include "support/io_cases.h"
 
@@ -222,6 +225,41 @@ TEST(IoFuzz, DamagedFilesAreReadAsMeshesOrRefusedWithAPlace) {
       }
     }
     // The damage must have been worth something.
+    EXPECT_GT(refused_count, kRounds / 20);
+    EXPECT_LT(refused_count, kRounds);
+  }
+}
+
+TEST(IoFuzz, DamagedPointsAreReadOrRefusedWithAPlace) {
+  const std::pair<const char*, std::string> files[] = {
+      {"a.xy", "# points\n0 0\n1 0.5 # one\n-1e3\t+2\n3 4 5\n\n0 1\n"},
+      {"a.csv", "name,X,\"y\",\"a, b\"\n\"p \"\"0\"\"\",0,0,\nq,1, 0.5 ,7\n# c\nr,-1e3,2\n"},
+      {"b.csv", "0,0\r\n1,0.5\r\n3,4,5\r\n0,1"}};
+  io::ReadOptions lenient;
+  lenient.keep_non_finite = true;
+  unsigned seed_number = 100;
+  for (const auto& [name, text] : files) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(io::read_points_bytes(text, name));
+    Mutator mutator(seed_number++);
+    int refused_count = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      const std::string damaged = mutator.damaged(text);
+      const std::vector<char> bytes(damaged.begin(), damaged.end());  // of exactly that size
+      SCOPED_TRACE(round);
+      const auto strict = io::read_points_bytes(bytes, name);
+      const auto kept = io::read_points_bytes(bytes, name, lenient);
+      ASSERT_TRUE(kept || !strict);
+      if (strict) {
+        for (const Point2& p : strict->points) {
+          ASSERT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
+        }
+      } else {
+        ++refused_count;
+        ASSERT_TRUE(strict.error().line > 0 && strict.error().column > 0)
+            << io::to_string(strict.error());
+      }
+    }
     EXPECT_GT(refused_count, kRounds / 20);
     EXPECT_LT(refused_count, kRounds);
   }

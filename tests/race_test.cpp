@@ -18,10 +18,12 @@
 #include "hedgerow/build.h"
 #include "hedgerow/corner_table.h"
 #include "hedgerow/dcel.h"
+#include "hedgerow/delaunay.h"
 #include "hedgerow/directed_edge.h"
 #include "hedgerow/normals.h"
 #include "hedgerow/query.h"
 #include "hedgerow/split_edge.h"
+#include "hedgerow/triangulate.h"
 #include "hedgerow/validate.h"
 
 namespace hedgerow {
@@ -254,6 +256,41 @@ TEST_P(Races, LeaveNoTraceInNormals) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Races, ::testing::Range(0, 4));
+
+TEST(PlanarRaces, TriangulatesAsOneThreadDoes) {
+  std::mt19937 random(4);
+  std::vector<Point2> points(20'000);
+  for (Point2& p : points) {
+    p = {static_cast<double>(random() % 1000), static_cast<double>(random() % 1000)};
+  }
+  const auto serial = triangulate(points, Execution::serial());
+  const auto shared = triangulate(points, plain_threads().with_grain(500));
+  ASSERT_TRUE(serial && shared);
+  expect_same(serial->mesh, shared->mesh);
+  expect_same(serial->same_as.span(), shared->same_as.span());
+}
+
+TEST(PlanarRaces, FlipsAsOneThreadDoes) {
+  const auto built = build(grid(120).list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  std::mt19937 random(5);
+  std::vector<float> xyz(3 * static_cast<std::size_t>(built->mesh.vertex_count()));
+  for (std::size_t v = 0; v < xyz.size() / 3; ++v) {
+    xyz[3 * v] = static_cast<float>(v % 121);
+    xyz[3 * v + 1] = static_cast<float>(v / 121);
+    xyz[3 * v + 2] = static_cast<float>(random() % 3);
+  }
+  const Positions positions{xyz.data(), built->mesh.vertex_count()};
+  const auto flipped = [&](const Execution& execution) {
+    Result<EditMesh> mesh = EditMesh::of(built->mesh, Execution::serial());
+    const auto report = flip_to_delaunay(*mesh, positions, {}, execution);
+    EXPECT_TRUE(report.has_value());
+    EXPECT_GT(report->flips, 1000);
+    EXPECT_EQ(report->left, 0);
+    return std::move(mesh->compact()->mesh);
+  };
+  expect_same(flipped(Execution::serial()), flipped(plain_threads().with_grain(100)));
+}
 
 }  // namespace
 }  // namespace hedgerow

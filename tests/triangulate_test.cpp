@@ -134,7 +134,7 @@ TEST_P(TriangulateSpread, IsTheSameForEveryThreadCountAndGrain) {
   const auto spread = static_cast<Spread>(GetParam());
   const std::vector<Point2> points = test::points_of(spread, 5000, 11);
   const Triangulation serial = triangulation_of(points);
-  for (const int threads : {1, 2, 3, 8}) {
+  for (const int threads : test::kThreadCounts) {
     for (const Index grain : {1, 37, 4000}) {
       test::Threads arena(threads);
       const Result<Triangulation> result = triangulate(points, arena.execution().with_grain(grain));

@@ -221,6 +221,8 @@ void print_flips(Run& run, const Arguments& arguments, const OpenedMesh& opened,
   json["after"] = counts(done.mesh, report);
   json["flips"] = report.flips;
   json["rounds"] = report.rounds;
+  json["candidates"] = report.candidates;
+  json["postponed"] = report.postponed;
   json["cut_short"] = report.is_cut_short;
   json["timings_ms"] = {
       {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"delaunay", done.ms}};
