@@ -80,8 +80,7 @@ void DirtySet::collect(const Mesh& mesh, const MovedVertices& moved) {
   kernels::IndexSet face_set(face_bits_.data(), mesh.face_count());
   kernels::IndexSet vertex_set(vertex_bits_.data(), mesh.vertex_count());
   const auto insert_faces = [&](Index v) {
-    kernels::for_each_corner(mesh, VertexId(v),
-                             [&](Index h) { face_set.insert(mesh.face(HalfedgeId(h)).value); });
+    kernels::for_each_face(mesh, VertexId(v), [&](Index f) { face_set.insert(f); });
   };
   for_each_moved(moved, [&](Index, Index v) { insert_faces(v); });
   face_set.drain([&](Index f) {

@@ -31,6 +31,33 @@ inline void for_each_corner(const View& mesh, VertexId v, const Visit& visit) no
   for (const FanStart& fan : extra_fans(mesh.fans, v)) rotate(fan.start);
 }
 
+/// Calls visit(f) for the face of each of them.
+template <Topology View, class Visit>
+inline void for_each_face(const View& mesh, VertexId v, const Visit& visit) noexcept {
+  if constexpr (std::is_same_v<View, TriangleView>) {
+    using Unsigned = std::make_unsigned_t<Index>;
+    // One division a step: it tells the face, and where in it the next half-edge is.
+    const auto rotate = [&](HalfedgeId start) {
+      Index h = start.value;
+      auto face = static_cast<Unsigned>(h) / 3;
+      do {
+        visit(static_cast<Index>(face));
+        const Index opposite = mesh.opposite[HalfedgeId(h)].value;
+        if (opposite < 0) return;
+        face = static_cast<Unsigned>(opposite) / 3;
+        const auto first = static_cast<Index>(3 * face);
+        h = opposite == first + 2 ? first : opposite + 1;
+      } while (h != start.value);
+    };
+    const HalfedgeId start = mesh.outgoing[v];
+    if (!start.valid()) return;
+    rotate(start);
+    for (const FanStart& fan : extra_fans(mesh.fans, v)) rotate(fan.start);
+  } else {
+    for_each_corner(mesh, v, [&](Index h) { visit(mesh.face(HalfedgeId(h)).value); });
+  }
+}
+
 /// Corners handed over at a time; more than almost every vertex has.
 inline constexpr Index kChunk = 64;
 
