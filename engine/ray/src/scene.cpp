@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <span>
 #include <utility>
 
 #include "float3_check.h"
+#include "outliers.h"
 #include "scene_impl.h"
 
 namespace hedgerow::ray {
@@ -94,6 +96,7 @@ void make_pieces(Scene::Impl& impl, const SceneOptions& options) {
     impl.pieces.push_back(geometry);
   }
   impl.touched.resize(impl.pieces.size());
+  impl.is_incomplete.resize(impl.pieces.size());
 }
 
 /// `rtcCommitScene` spreads its tasks over the arena that it is called in; `rtcJoinCommitScene`
@@ -108,13 +111,35 @@ Result<void> commit(Scene::Impl& impl, const Execution& execution) {
   return result;
 }
 
-Result<void> follow(Scene::Impl& impl, bool is_rebuilt, const Execution& execution) {
+bool has_outlier_in(const Scene::Impl& impl, std::size_t piece) noexcept {
+  const auto begin = static_cast<Index>(piece) * impl.piece_size;
+  const Index count = std::min(impl.piece_size, impl.primitives.count - begin);
+  const auto sides = static_cast<std::size_t>(impl.primitives.sides);
+  return has_outlier(impl.positions,
+                     std::span(impl.primitives.vertices + static_cast<std::size_t>(begin) * sides,
+                               static_cast<std::size_t>(count) * sides));
+}
+
+/// Notes whether Embree leaves faces of a piece out, looking only where it `may_have` such or had
+/// some. Returns whether it does or did: a refit brings none back and takes none away.
+bool note_incomplete(Scene::Impl& impl, std::size_t piece, bool may_have) noexcept {
+  const bool was = impl.is_incomplete[piece] != 0;
+  const bool is = (may_have || was) && has_outlier_in(impl, piece);
+  impl.is_incomplete[piece] = is ? 1 : 0;
+  return was || is;
+}
+
+/// `has_outliers`: among the vertices that may have moved.
+Result<void> follow(Scene::Impl& impl, bool is_rebuilt, bool has_outliers,
+                    const Execution& execution) {
   impl.refitted = 0;
   for (std::size_t i = 0; i < impl.pieces.size(); ++i) {
     if (impl.touched[i] == 0) continue;
     rtcUpdateGeometryBuffer(impl.pieces[i], RTC_BUFFER_TYPE_VERTEX, 0);
     // Other indices mean another tree: Embree then does not refit.
-    if (is_rebuilt) rtcUpdateGeometryBuffer(impl.pieces[i], RTC_BUFFER_TYPE_INDEX, 0);
+    if (note_incomplete(impl, i, has_outliers) || is_rebuilt) {
+      rtcUpdateGeometryBuffer(impl.pieces[i], RTC_BUFFER_TYPE_INDEX, 0);
+    }
     rtcCommitGeometry(impl.pieces[i]);
     ++impl.refitted;
   }
@@ -179,6 +204,9 @@ Result<Scene> Scene::build(const Device& device, const Connectivity& mesh,
   }
   rtcSetSceneFlags(impl->scene, static_cast<RTCSceneFlags>(flags));
   make_pieces(*impl, options);
+  if (has_outlier(impl->positions, impl->vertex_count, execution)) {
+    for (std::size_t i = 0; i < impl->pieces.size(); ++i) (void)note_incomplete(*impl, i, true);
+  }
   impl->stats = {impl->primitives.copied.size_bytes() + impl->primitives.corners.size_bytes(),
                  std::ssize(impl->pieces), impl->primitives.cut_face_count};
   if (auto ok = embree_error(impl->device->device); !ok) return fail(ok.error());
@@ -188,7 +216,8 @@ Result<Scene> Scene::build(const Device& device, const Connectivity& mesh,
 
 Result<void> Scene::refit(const Execution& execution) {
   std::ranges::fill(impl_->touched, std::uint8_t{1});
-  return follow(*impl_, false, execution);
+  const bool has_outliers = has_outlier(impl_->positions, impl_->vertex_count, execution);
+  return follow(*impl_, false, has_outliers, execution);
 }
 
 Result<void> Scene::refit(const PaddedPositions& positions, const Execution& execution) {
@@ -210,12 +239,14 @@ Result<void> Scene::refit(const DirtySet& dirty, const Execution& execution) {
   for (const Index f : dirty.faces()) {
     impl_->touched[static_cast<std::size_t>(f / impl_->piece_size)] = 1;
   }
-  return follow(*impl_, false, execution);
+  const bool has_outliers = has_outlier(impl_->positions, dirty.vertices(), execution);
+  return follow(*impl_, false, has_outliers, execution);
 }
 
 Result<void> Scene::rebuild(const Execution& execution) {
   std::ranges::fill(impl_->touched, std::uint8_t{1});
-  return follow(*impl_, true, execution);
+  const bool has_outliers = has_outlier(impl_->positions, impl_->vertex_count, execution);
+  return follow(*impl_, true, has_outliers, execution);
 }
 
 const SceneStats& Scene::stats() const noexcept { return impl_->stats; }

@@ -46,6 +46,7 @@ struct Scene::Impl {
   RTCScene scene = nullptr;
   std::vector<RTCGeometry> pieces;  ///< kept alive by the scene
   std::vector<std::uint8_t> touched;
+  std::vector<std::uint8_t> is_incomplete;  ///< of pieces: Embree has left faces out of the tree
   Primitives primitives;
   Index piece_size = 0;  ///< primitives a piece; the last may have fewer
   Index vertex_count = 0;

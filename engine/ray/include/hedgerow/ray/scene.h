@@ -92,7 +92,8 @@ struct SceneStats {
 ///            Other meshes get a table of 32 bytes a face, in which quads stay quads and larger
 ///            faces are cut into triangles by the positions of the moment. Quads are cut along the
 ///            diagonal from corner 1 to corner 3, as Embree does.
-/// Faces      Those with a vertex that is not finite, or beyond 1.8e18, are never met.
+/// Faces      Those with a vertex that is not finite, or beyond 1.8e18, are never met. A refit
+///            builds the pieces anew that have such a face, or had one.
 /// Ties       Where several faces are met at the same t (on a shared edge), which one is found
 ///            depends on the tree, and the tree on the threads that built it; serial builds give
 ///            the same tree always. `t` does not depend on it.
