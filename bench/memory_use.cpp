@@ -84,4 +84,6 @@ MemoryUse memory_use_of(const std::function<void()>& run) {
   return {allocation_count, byte_count, peak_resident_bytes()};
 }
 
+std::int64_t allocations_so_far() noexcept { return allocation_count; }
+
 }  // namespace hedgerow::bench

@@ -16,4 +16,7 @@ struct MemoryUse {
 /// Threads    All are counted, so no other work may run beside it.
 [[nodiscard]] MemoryUse memory_use_of(const std::function<void()>& run);
 
+/// Allocations since the last call of `memory_use_of` began: for the parts of a run.
+[[nodiscard]] std::int64_t allocations_so_far() noexcept;
+
 }  // namespace hedgerow::bench

@@ -8,6 +8,9 @@
       the same for what all representations are asked: bench/results/representations.json
   perf_table.py --planar PROG [--rounds 5]
       the same for triangulations and flips: bench/results/planar.json
+  perf_table.py --frames build/release/bench/hedgerow_frames [--part NAME]... [--mesh DRAGON]
+      the same for frames of a ray tracer: bench/results/frames.json, of which each part takes up
+      to three minutes; without --part all that need no mesh, or with --mesh all that do
   perf_table.py                 rewrites the tables from the stored results
   perf_table.py --check         exit status 1 if the tables are not those of the stored results
   perf_table.py --targets PROG  measures only what the tables of targets need, and prints them
@@ -23,6 +26,8 @@ import subprocess
 import sys
 import tempfile
 
+from perf_frames import FRAMES, MESH_PARTS, PARTS, frame_tables, frame_targets
+from perf_frames import read_frames, with_part
 from perf_planar import PATTERN, PLANAR, planar_tables
 from perf_representations import REPRESENTATIONS, read_representations, representation_tables
 from perf_results import FOLDER, Results, merge, read_counts, read_results, write_document
@@ -61,12 +66,16 @@ def main(arguments):
     parser.add_argument("--targets", metavar="PROGRAM")
     parser.add_argument("--representations", metavar="PROGRAM")
     parser.add_argument("--planar", metavar="PROGRAM")
+    parser.add_argument("--frames", metavar="PROGRAM")
+    parser.add_argument("--part", action="append", choices=[*PARTS, *MESH_PARTS],
+                        help="of the frames, which to measure")
     parser.add_argument("--mesh", action="append", default=[], help="also measure on this mesh")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS)
     parser.add_argument("--answers", type=pathlib.Path, default=REPRESENTATIONS)
     parser.add_argument("--flat", type=pathlib.Path, default=PLANAR, help="results of --planar")
+    parser.add_argument("--drawn", type=pathlib.Path, default=FRAMES)
     parser.add_argument("--perf", type=pathlib.Path, default=PERF)
     parser.add_argument("--readme", type=pathlib.Path, default=README)
     options = parser.parse_args(arguments)
@@ -87,16 +96,30 @@ def main(arguments):
     if options.planar:
         flat = run(options.planar, ["--rounds", str(options.rounds), "--filter", PATTERN])
         write_document(flat, options.flat)
+    if options.frames:
+        record_frames(options)
     return write_pages(options)
+
+
+def record_frames(options):
+    """Measures the chosen parts, each of which is stored as soon as it is there."""
+    chosen = options.part or (MESH_PARTS if options.mesh else PARTS)
+    for part in chosen:
+        if part in MESH_PARTS and not options.mesh:
+            raise SystemExit(f"part {part} is of a mesh file: --mesh FILE")
+        mesh = ["--mesh", options.mesh[0]] if part in MESH_PARTS else []
+        recorded = run(options.frames, [*mesh, *({**PARTS, **MESH_PARTS}[part])])
+        write_document(with_part(read_frames(options.drawn), part, recorded), options.drawn)
 
 
 def write_pages(options):
     """Rewrites or checks each page; returns the exit status."""
     results, counts = read_results(options.results), read_counts()
-    answers = read_representations(options.answers)
+    answers, frames = read_representations(options.answers), read_frames(options.drawn)
     flat = read_results(options.flat)
+    drawn = {"frames-targets": targets_table(frame_targets()), **frame_tables()}
     pages = {options.perf: [(results, all_tables()), (answers, representation_tables()),
-                            (flat, planar_tables())],
+                            (flat, planar_tables()), (frames, drawn)],
              options.readme: [(results, readme_tables())]}
     status = 0
     for page, parts in pages.items():

@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "bench")
 
 import count  # noqa: E402
 import perf_format  # noqa: E402
+import perf_frames  # noqa: E402
 import perf_planar  # noqa: E402
 import perf_representations  # noqa: E402
 import perf_results  # noqa: E402
@@ -278,6 +279,77 @@ class Planar(unittest.TestCase):
         self.assertTrue(lines[5].endswith("|  | not measured |"))
 
 
+class FramesOfARayTracer(unittest.TestCase):
+    LOOP = perf_frames.MAIN_LOOP
+
+    @staticmethod
+    def row(part, stage, what, variant, value, unit="ms", note=""):
+        return {"part": part, "stage": stage, "what": what, "variant": variant, "value": value,
+                "unit": unit, "note": note}
+
+    def frames(self, *rows):
+        return perf_frames.Frames({"context": {}, "rows": list(rows)})
+
+    def verdict_of(self, title, *rows):
+        found = [(value, verdict) for target, value, verdict
+                 in perf_targets.evaluate(perf_frames.frame_targets(), self.frames(*rows), NO_COUNTS)
+                 if target.title.startswith(title)]
+        self.assertEqual(len(found), 1, title)
+        return found[0]
+
+    def test_are_set_beside_normals_of_openmesh_and_a_tree_built_anew(self):
+        rows = (self.row("dragon-100", "S6", self.LOOP, "normals", 4),
+                self.row("dragon-100", "S6", self.LOOP, "refit", 16),
+                self.row("dragon-100", "S6", "100% moved, normals", "openmesh", 20),
+                self.row("dragon-100", "S6", "100% moved, tree built anew", "openmesh", 30))
+        self.assertEqual(self.verdict_of("dragon: normals and refit", *rows), (2.5, "**missed**"))
+        self.assertEqual(self.verdict_of("dragon: normals and refit", *rows[1:]),
+                         (None, "not measured"))
+
+    def test_may_not_allocate_at_all(self):
+        rows = [self.row("small-1", "S6", self.LOOP, "allocations", 0),
+                self.row("small-100", "S6", self.LOOP, "allocations", 1e-4)]
+        self.assertEqual(self.verdict_of("allocations", *rows), (1e-4, "**missed**"))
+        self.assertEqual(self.verdict_of("allocations", rows[0]), (0, "moonshot"))
+
+    def test_leave_five_microseconds_to_a_blob(self):
+        rows = (self.row("terrain", "S2", "1% moved, area", "1 thread", 0.305),
+                self.row("terrain", "S2", "gather, area", "1 thread", 10))
+        value, verdict = self.verdict_of("terrain: normals after", *rows)
+        self.assertAlmostEqual(value, 3)
+        self.assertEqual(verdict, "**missed**")
+
+    def test_show_the_share_of_each_stage(self):
+        rows = [self.row("small-1", "S6", self.LOOP, name, 1, note="5 frames")
+                for name in (*perf_frames.TIMES, *perf_frames.PARTS_OF_A_FRAME)]
+        rows.append(self.row("small-1", "S6", self.LOOP, "allocations", 0,
+                             note="and 5 by Embree, for 5 commits"))
+        lines = perf_frames.stages_table(self.frames(*rows), NO_COUNTS)
+        cells = line_of(lines, ["terrain, 200k triangles", self.LOOP])
+        self.assertEqual((cells["refit, ms"], cells["by Embree in all"]), ("1.00 (20 %)", "5"))
+
+    def test_set_the_least_of_each_question_in_bold(self):
+        rows = [self.row("dragon", "S5", "one-ring", who, value, "ns/hit")
+                for who, value in (("hedgerow", 20), ("cgal", 30))]
+        rows.append(self.row("dragon", "S5", "two-ring", "hedgerow", 90, "ns/hit"))
+        table = perf_frames.frame_tables()["frames-hits-dragon"](self.frames(*rows), NO_COUNTS)
+        self.assertIn("| one-ring | **20.0** | 30.0 |", table)
+        self.assertIn("| two-ring | 90.0 |  |", table)
+
+    def test_of_one_part_are_replaced_and_wrong_ones_refused(self):
+        before = self.frames(self.row("terrain", "S5", "one-ring", "hedgerow", 1),
+                             self.row("dragon", "S5", "one-ring", "hedgerow", 2))
+        row = {"stage": "S5", "what": "one-ring", "variant": "hedgerow", "value": 3, "unit": "ns/hit",
+               "note": ""}
+        after = perf_frames.Frames(perf_frames.with_part(
+            before, "dragon", {"context": {"mesh": "x"}, "failed": [], "rows": [row]}))
+        self.assertEqual([after.get(part, "one-ring", "hedgerow") for part in ("terrain", "dragon")],
+                         [1, 3])
+        self.assertNotIn("mesh", after.context)
+        with self.assertRaises(SystemExit):
+            perf_frames.with_part(before, "dragon", {"context": {}, "failed": ["S5"], "rows": []})
+
+
 class Rewrite(unittest.TestCase):
     def text(self, names):
         return "".join(f"prose of {name}\n<!-- table:{name} begin -->\nold\n"
@@ -304,7 +376,8 @@ class Rewrite(unittest.TestCase):
             stored = pathlib.Path(folder) / "results.json"
             perf_results.write_document(document(entry("build/grid/4M/1", 20)), stored)
             names = [*perf_tables.all_tables(), *perf_representations.representation_tables(),
-                     *perf_planar.planar_tables()]
+                     *perf_planar.planar_tables(),
+                     "frames-targets", *perf_frames.frame_tables()]
             perf.write_text(self.text(names), encoding="utf-8")
             readme = pathlib.Path(folder) / "README.md"
             readme.write_text(self.text(perf_tables.readme_tables()), encoding="utf-8")

@@ -9,6 +9,7 @@
 
 #include "hedgerow/circulate.h"
 #include "hedgerow/ray/surface.h"
+#include "memory_use.h"
 
 namespace hedgerow::bench {
 namespace {
@@ -69,7 +70,9 @@ void Frame::update(float time, Change change, const FrameThreads& threads, PartT
   lap.end(kDeform);
   const bool is_done = change == Change::some ? compute_moved(execution) : compute_all(execution);
   lap.end(kNormals);
+  const std::int64_t before = allocations_so_far();
   is_good_ = is_done && scene_.refit(dirty_, execution) && !scene_.has_built() && is_good_;
+  refit_allocations_ += allocations_so_far() - before;
   lap.end(kRefit);
 }
 

@@ -51,6 +51,9 @@ class Frame {
   /// Rays, hits, and what was dirty.
   [[nodiscard]] std::string rates() const;
 
+  /// Allocations within the refits so far, which are Embree's: see `Scene`.
+  [[nodiscard]] std::int64_t refit_allocations() const noexcept { return refit_allocations_; }
+
   [[nodiscard]] ray::Scene& scene() noexcept { return scene_; }
   [[nodiscard]] Positions positions() const noexcept { return {xyz_.data(), subject_.vertices()}; }
 
@@ -71,6 +74,7 @@ class Frame {
   std::vector<ray::HitPacket> hits_;
   std::vector<float> answers_;
   ray::Scene scene_;
+  std::int64_t refit_allocations_ = 0;
   bool is_good_ = true;
 };
 

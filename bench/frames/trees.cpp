@@ -60,6 +60,7 @@ class TreeStages {
   void measure_refits(const char* variant, const ray::SceneOptions& options) {
     auto scene = build(options);
     if (!scene) return rows_.fail(variant);
+    add("copied to attach", variant, static_cast<double>(scene->stats().copied_bytes), "bytes");
     bool has_built = false;
     double ms = best_ms(options_.runs, [&] {
       (void)scene->refit(execution_);
