@@ -261,6 +261,35 @@ TEST(Delaunay, LeavesPolygonsAlone) {
   EXPECT_EQ(flip(surface, {}).flips, 0);
 }
 
+// A fan of many triangles, and on each a flat one whose edge to the fan fails: every flip adds an
+// edge to the middle of the fan, and none may walk round it.
+TEST(Delaunay, IsNotQuadraticAtAVertexOfManyTriangles) {
+  constexpr Index kCount = 100'000;
+  std::vector<Index> corners;
+  Surface surface{{}, {0, -coordinate(kCount), 0}};
+  const auto push = [&](Index x, double y) {
+    surface.xyz.insert(surface.xyz.end(),
+                       {coordinate(static_cast<double>(x - kCount)), coordinate(y), 0.0F});
+  };
+  push(0, 0);
+  for (Index i = 0; i < kCount; ++i) {
+    push(2 * i + 1, 0x1p-20);
+    push(2 * i + 2, 0);
+    const Index left = 2 * i + 1;
+    corners.insert(corners.end(), {0, left + 2, left, left, left + 2, left + 1});
+  }
+  const auto faces = FaceList::triangles<Index>(corners, 2 * kCount + 2);
+  const auto built = build(faces, {}, Execution::serial());
+  ASSERT_TRUE(built.has_value());
+  for (const DelaunayOrder order : kOrders) {
+    surface.mesh = std::move(*EditMesh::of(built->mesh, Execution::serial()));
+    const DelaunayReport report = flip(surface, {.order = order});
+    EXPECT_GE(report.flips, kCount);
+    EXPECT_EQ(report.left, 0);
+    EXPECT_FALSE(report.is_cut_short);
+  }
+}
+
 TEST(Delaunay, AsksForAPositionForEachVertex) {
   Surface surface = squeezed_sphere(4);
   Positions few = surface.positions();

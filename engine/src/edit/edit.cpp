@@ -146,6 +146,18 @@ bool EditTest::is_on_boundary(VertexId v) const noexcept {
   return view_.outgoing[v].valid() && !view_.face(view_.outgoing[v]).valid();
 }
 
+bool EditTest::are_joined(VertexId a, VertexId b) const noexcept {
+  const auto at_a = outgoing_halfedges(view_, a);
+  const auto at_b = outgoing_halfedges(view_, b);
+  // Both at once, and whoever is round first knows: one may be the middle of a large fan.
+  auto i = at_a.begin();
+  auto j = at_b.begin();
+  for (; i != at_a.end() && j != at_b.end(); ++i, ++j) {
+    if (view_.target(*i) == b || view_.target(*j) == a) return true;
+  }
+  return false;
+}
+
 Index EditTest::gaps(VertexId v) const noexcept {
   Index count = 0;
   for (const HalfedgeId h : outgoing_halfedges(view_, v)) count += !view_.face(h).valid();

@@ -91,6 +91,8 @@ class EditTest {
   [[nodiscard]] bool is_in(FaceId f, VertexId v) const noexcept;
   [[nodiscard]] bool is_triangle(HalfedgeId h) const noexcept;
   [[nodiscard]] bool is_on_boundary(VertexId v) const noexcept;
+  /// Whether there is an edge between them. O(smaller valence).
+  [[nodiscard]] bool are_joined(VertexId a, VertexId b) const noexcept;
   /// The number of boundary half-edges that leave `v`.
   [[nodiscard]] Index gaps(VertexId v) const noexcept;
   /// Whether some face at `a`, but for these two, has `b` as a corner.

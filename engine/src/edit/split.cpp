@@ -19,7 +19,7 @@ EditCheck EditMesh::can_flip(HalfedgeId h) const {
   // Each face takes a vertex over from the other one.
   if (test.is_in(f, c)) return {Refusal::same_vertex, c.value};
   if (test.is_in(g, d)) return {Refusal::same_vertex, d.value};
-  if (find(c, d).valid()) return {Refusal::duplicate_edge, find(c, d).value};
+  if (test.are_joined(c, d)) return {Refusal::duplicate_edge, find(c, d).value};
   return test.has_one_fan({mesh.origin[h], mesh.origin[o], c, d});
 }
 
