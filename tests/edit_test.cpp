@@ -160,6 +160,30 @@ TEST(Cut, DoublesWhatItPassesAndZippingSewsItUp) {
   EXPECT_EQ(compacted->mesh.vertex_count(), 7);
 }
 
+// Two edges without a face, from 0 to 1 and on to 2.
+TEST(Zip, MakesOneDanglingEdgeOfTwo) {
+  ReferenceMesh path;
+  path.origin = {0, 1, 2, 1};
+  path.next = {1, 2, 3, 0};
+  path.opposite = {3, 2, 1, 0};
+  path.face = {-1, -1, -1, -1};
+  path.outgoing = {0, 1, 2};
+  path.form = Form::closed;
+  path.first = {0};
+  EditMesh mesh = std::move(*EditMesh::of(to_connectivity(path), Execution::serial()));
+  ASSERT_EQ(find_fault(mesh), "");
+  const EditState before = state_of(mesh);
+  const EditResult result = mesh.zip(HalfedgeId(0));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(find_fault(mesh), "");
+  EXPECT_FALSE(mesh.has(VertexId(2)));
+  EXPECT_TRUE(between(mesh, 0, 1).valid());
+  const Change change = **result;
+  EXPECT_EQ(change.deaths.size(), 3U);
+  ASSERT_TRUE(mesh.undo(change));
+  EXPECT_TRUE(state_of(mesh) == before);
+}
+
 TEST(Edits, RefuseAVertexWithSeveralFans) {
   EditMesh mesh = edit_mesh(bowtie());
   EXPECT_EQ(reason(mesh.collapse(between(mesh, 0, 2))), Refusal::several_fans);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -30,12 +30,16 @@ inline EditState state_of(const EditMesh& mesh) {
 }
 
 /// The first relation that does not hold, in words; "" if the mesh is sound. Written from the
-/// invariants, with maps.
+/// invariants, with marks.
 class EditSoundness {
  public:
   /// `may_double`: a mesh whose non-manifold edges were cut has several edges between two vertices.
   EditSoundness(const EditMesh& mesh, bool may_double)
-      : mesh_(mesh), view_(mesh.view()), may_double_(may_double) {}
+      : mesh_(mesh),
+        view_(mesh.view()),
+        may_double_(may_double),
+        met_(static_cast<std::size_t>(view_.halfedge_count()), 0),
+        face_of_corner_(static_cast<std::size_t>(view_.vertex_count()), kInvalidIndex) {}
 
   std::string find_fault() {
     for (Index h = 0; h < view_.halfedge_count() && fault_.empty(); ++h) {
@@ -48,12 +52,14 @@ class EditSoundness {
       if (mesh_.has(VertexId(v))) check_vertex(VertexId(v));
     }
     for (Index h = 0; h < view_.halfedge_count() && fault_.empty(); ++h) {
-      if (mesh_.has(HalfedgeId(h)) && !met_[h]) say("is met by no rotation", h);
+      if (mesh_.has(HalfedgeId(h)) && met_[at(h)] == 0) say("is met by no rotation", h);
     }
+    if (!may_double_) check_edges();
     return fault_;
   }
 
  private:
+  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   void say(const char* what, Index element) {
     if (!fault_.empty()) return;
     std::ostringstream out;
@@ -76,19 +82,24 @@ class EditSoundness {
     expect(view_.face(view_.next(h)) == view_.face(h), "is followed in another face", h.value);
     expect(!view_.face(h).valid() || mesh_.has(view_.face(h)), "has a face that is gone", h.value);
     expect(view_.origin[h] != view_.origin[o], "joins a vertex to itself", h.value);
-    const bool is_first = edges_.emplace(std::pair(view_.origin[h], view_.origin[o]), h).second;
-    expect(is_first || may_double_, "doubles an edge", h.value);
+    edges_.emplace_back(view_.origin[h], view_.origin[o]);
+  }
+  void check_edges() {
+    std::sort(edges_.begin(), edges_.end());
+    const auto twice = std::adjacent_find(edges_.begin(), edges_.end());
+    if (twice != edges_.end()) say("has two edges to the same vertex", twice->first.value);
   }
   void check_face(FaceId f) {
     const HalfedgeId start = view_.first(f);
     expect(mesh_.has(start) && view_.face(start) == f, "has no good first", f.value);
     if (!fault_.empty()) return;
-    std::map<VertexId, int> corners;
     Index degree = 0;
     HalfedgeId h = start;
     do {
       ++degree;
-      expect(++corners[view_.origin[h]] == 1, "meets a vertex twice", f.value);
+      Index& last = face_of_corner_[at(view_.origin[h].value)];
+      expect(last != f.value, "meets a vertex twice", f.value);
+      last = f.value;
       h = view_.next(h);
     } while (h != start && fault_.empty());
     expect(degree >= 3, "has fewer than three corners", f.value);
@@ -101,7 +112,7 @@ class EditSoundness {
     bool is_on_boundary = false;
     HalfedgeId h = start;
     do {
-      met_[h.value] = true;
+      met_[at(h.value)] = 1;
       is_on_boundary |= !view_.face(h).valid();
       h = view_.next(view_.opposite[h]);
     } while (h != start);
@@ -109,7 +120,7 @@ class EditSoundness {
     for (const FanStart& fan : extra_fans(view_.fans, v)) {
       h = fan.start;
       do {
-        met_[h.value] = true;
+        met_[at(h.value)] = 1;
         h = view_.next(view_.opposite[h]);
       } while (h != fan.start);
     }
@@ -118,8 +129,9 @@ class EditSoundness {
   const EditMesh& mesh_;
   EditView view_;
   bool may_double_;
-  std::map<std::pair<VertexId, VertexId>, HalfedgeId> edges_;
-  std::map<Index, bool> met_;
+  std::vector<std::pair<VertexId, VertexId>> edges_;
+  std::vector<char> met_;
+  std::vector<Index> face_of_corner_;  // the last one that was met at a vertex
   std::string fault_;
 };
 

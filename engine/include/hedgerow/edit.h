@@ -222,7 +222,8 @@ class EditMesh {
   [[nodiscard]] EditCheck can_cut(std::span<const HalfedgeId> path) const;
   EditResult cut(std::span<const HalfedgeId> path);
   /// Its inverse, edge by edge: sews the boundary half-edge h to the one after it. The target of
-  /// that becomes the origin of h.
+  /// that becomes the origin of h. The other two of a hole of four are sewn as well; of two edges
+  /// without any face one is left.
   [[nodiscard]] EditCheck can_zip(HalfedgeId h) const;
   EditResult zip(HalfedgeId h);
 

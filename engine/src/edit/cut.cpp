@@ -186,7 +186,8 @@ EditResult EditMesh::zip(HalfedgeId h) {
   edit.remove(g);
   edit.remove(c);
   edit.settle_if_needed(v, to_a);
-  if (edit.next(n) != p) {
+  // Of two dangling edges one is left: its two sides are no hole.
+  if (edit.next(n) != p || edit.opposite(n) == p) {
     edit.settle_if_needed(a, from_a);
     return edit.done();
   }

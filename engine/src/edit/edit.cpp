@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "hedgerow/boundary.h"
@@ -265,18 +266,30 @@ void EditMesh::reserve(Index vertices, Index halfedges, Index faces, Index write
 }
 
 std::vector<Index> Change::changed(Element element) const {
-  std::vector<Index> ids;
   const Index old_count = counts_before[static_cast<std::size_t>(element)];
+  std::vector<Write> own;
   for (const Write& write : writes) {
-    if (element_of(write.column) == element && write.index < old_count) ids.push_back(write.index);
+    if (element_of(write.column) == element && write.index < old_count) own.push_back(write);
   }
-  std::sort(ids.begin(), ids.end());
-  // Not std::ranges: clang 14 cannot compile a subrange of the gcc 12 library.
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  std::erase_if(ids, [&](Index id) {
-    return std::ranges::any_of(
-        deaths, [&](const Death& death) { return death.element == element && death.id == id; });
+  std::stable_sort(own.begin(), own.end(), [](const Write& a, const Write& b) {
+    return std::tie(a.index, a.column) < std::tie(b.index, b.column);
   });
+  std::vector<Index> dead;
+  for (const Death& death : deaths) {
+    if (death.element == element) dead.push_back(death.id);
+  }
+  std::sort(dead.begin(), dead.end());
+  // An entry may be written several times, and end as it began.
+  std::vector<Index> ids;
+  for (std::size_t begin = 0, end = 0; begin < own.size(); begin = end) {
+    const auto is_same_entry = [&](const Write& write) {
+      return write.index == own[begin].index && write.column == own[begin].column;
+    };
+    while (end < own.size() && is_same_entry(own[end])) ++end;
+    const Index id = own[begin].index;
+    if (own[begin].before == own[end - 1].after || (!ids.empty() && ids.back() == id)) continue;
+    if (!std::binary_search(dead.begin(), dead.end(), id)) ids.push_back(id);
+  }
   return ids;
 }
 
