@@ -17,7 +17,7 @@ enum class SmoothWeights : std::uint8_t {
 
 enum class SmoothUpdate : std::uint8_t {
   double_buffered,  ///< all vertices from the positions before: parallel
-  in_place,  ///< each from the newest, in ascending order, on one thread
+  in_place,         ///< each from the newest, in ascending order, on one thread
 };
 
 struct SmoothOptions {
