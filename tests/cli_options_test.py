@@ -70,6 +70,26 @@ class Usage(ProgramTest):
                 self.fails(2, *arguments)
         self.assertEqual(os.listdir(self.folder), ["a.obj"])
 
+    def test_a_wrong_value_is_told_what_would_be_right(self):
+        mesh, out = self.file("a.obj", cli.TETRAHEDRON), self.path("o.ply")
+        for arguments, said in (
+                (("generate", "grid", out, "--size", "0"),
+                 '--size: takes a whole number, 1 or more, not "0"'),
+                (("generate", "cone", out), "SHAPE: takes grid, "),
+                (("repair", mesh, out, "--weld", "nan"),
+                 '--weld: takes a number, 0 or more, not "nan"'),
+                (("subdivide", mesh, out, "--scheme", "loop", "--levels", "1.5"),
+                 '--levels: takes a whole number from 0 to 64, not "1.5"'),
+                (("smooth", mesh, out, "--iterations", "9", "--step", "2"),
+                 "--step: takes a number from 1e-06 to 1"),
+                (("smooth", mesh, out), "--iterations is required"),
+                (("reorder", mesh, out, "--order", "x"),
+                 '--order: takes hilbert, morton, bfs, vertex-cache, not "x"'),
+                (("voronoi", mesh, out, "--box", "1,2"), "--box: At least 4 required")):
+            with self.subTest(arguments=arguments):
+                self.assertIn(said, self.fails(2, *arguments))
+        self.assertEqual(os.listdir(self.folder), ["a.obj"])
+
     def test_a_wrong_policy_names_what_would_be_right(self):
         mesh = self.file("a.obj", cli.TETRAHEDRON)
         self.assertIn("nonmanifold-edge", self.fails(2, "inspect", mesh, "--policy", "x=skip"))
@@ -232,7 +252,7 @@ class Terminal(ProgramTest):
     # With a delay of its own each run is long or short work on any machine.
     def test_a_progress_bar_is_for_terminals_and_long_work(self):
         mesh = self.file("a.obj", cli.shuffled_grid(40))
-        work = ["report", mesh, "--out", self.path("report")]
+        work = ["normals", mesh, self.path("normals.ply")]
         bar = r"\[=* *\] +\d+%"
         at_once = {"HEDGEROW_PROGRESS_DELAY": "0"}
         self.assertRegex(in_terminal(work, **at_once)[1], bar)

@@ -1,6 +1,5 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -84,15 +83,13 @@ ExitStatus convert(Run& run, const Arguments& arguments) {
 
 void add_convert(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       program.add_command("convert", "Read a mesh in one format and write it in another",
                           "Polygons stay polygons, but in STL, where they are cut into triangles.",
                           "hedgerow convert engine.stl engine.ply",
                           [arguments](Run& run) { return convert(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "File to write: .obj, .ply, .off, .stl or .wet")
-      ->required()
-      ->type_name("");
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "File to write: .obj, .ply, .off, .stl or .wet");
 }
 
 }  // namespace hedgerow::tool

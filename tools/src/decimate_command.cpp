@@ -2,7 +2,6 @@
 #include <string>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "before_after.h"
@@ -74,18 +73,15 @@ ExitStatus decimate_file(Run& run, const Arguments& arguments) {
 
 void add_decimate(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "decimate", "Make a mesh of fewer faces that looks like it",
       "Collapses edges, those first that move the surface least (quadric error). The outline of\n"
       "holes is held, no face is turned over. Prints the counts before and after.",
       "hedgerow decimate dragon.ply small.ply --faces 10000",
       [arguments](Run& run) { return decimate_file(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
-  command.add_option("--faces", arguments->faces, "How many are to be left, or fewer by one")
-      ->required()
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "Mesh to write")
+      .needed_number("--faces", {0}, arguments->faces, "How many are to be left, or fewer by one");
 }
 
 }  // namespace hedgerow::tool

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -28,7 +27,7 @@ struct Arguments {
   std::string edges;
   std::string test = "angle-sum";
   std::string order = "rounds";
-  std::int64_t max_flips = -1;
+  std::optional<std::int64_t> max_flips;
 };
 
 // ---- points
@@ -159,7 +158,7 @@ DelaunayOptions flip_options(const Arguments& arguments) {
   DelaunayOptions options;
   options.test = arguments.test == "in-circle" ? DelaunayTest::in_circle : DelaunayTest::angle_sum;
   options.order = arguments.order == "queue" ? DelaunayOrder::queue : DelaunayOrder::rounds;
-  options.max_flips = arguments.max_flips;
+  options.max_flips = arguments.max_flips.value_or(options.max_flips);
   return options;
 }
 
@@ -253,7 +252,7 @@ ExitStatus flip_file(Run& run, const Arguments& arguments) {
 
 void add_delaunay(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "delaunay", "Triangulate points in the plane, or flip the edges of a surface",
       "Points (.xy or .csv) are triangulated with exact signs; vertex i is point i. A picture "
       "(.svg)\n"
@@ -263,30 +262,16 @@ void add_delaunay(Program& program) {
         return io::is_points_file(arguments->input) ? triangulate_points(run, *arguments)
                                                     : flip_file(run, *arguments);
       });
-  command.add_option("IN", arguments->input, "Points (.xy, .csv) or a mesh to read")
-      ->required()
-      ->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write; of points also .svg")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--edges", arguments->edges,
-                  "Of points: edges to have, as a file (.xy, .csv) of two numbers of points a "
-                  "line, from 0")
-      ->type_name("");
-  command
-      .add_option("--test", arguments->test,
-                  "Of a mesh: angles across an edge, or circles by x and y, exact")
-      ->check(CLI::IsMember({"angle-sum", "in-circle"}))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_option("--order", arguments->order, "Of a mesh: many flips at once, or one by one")
-      ->check(CLI::IsMember({"rounds", "queue"}))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_option("--max-flips", arguments->max_flips, "Of a mesh: stop after so many")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("");
+  command.word("IN", arguments->input, "Points (.xy, .csv) or a mesh to read")
+      .word("OUT", arguments->output, "Mesh to write; of points also .svg")
+      .text("--edges", "FILE", arguments->edges,
+            "Of points: edges to have, as a file (.xy, .csv) of two numbers of points a line, from "
+            "0")
+      .choice("--test", {"angle-sum", "in-circle"}, arguments->test,
+              "Of a mesh: angles across an edge, or circles by x and y, exact")
+      .choice("--order", {"rounds", "queue"}, arguments->order,
+              "Of a mesh: many flips at once, or one by one")
+      .optional_number("--max-flips", {0}, arguments->max_flips, "Of a mesh: stop after so many");
 }
 
 }  // namespace hedgerow::tool

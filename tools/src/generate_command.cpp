@@ -1,6 +1,5 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -64,25 +63,16 @@ ExitStatus generate(Run& run, const Arguments& arguments) {
 
 void add_generate(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       program.add_command("generate", "Write a mesh made by rule; the same bytes every time", "",
                           "hedgerow generate gyroid gyroid.ply --size 1000000",
                           [arguments](Run& run) { return generate(run, *arguments); });
   std::string names;
   for (const std::string& name : shape_names()) names += (names.empty() ? "" : ", ") + name;
-  command.add_option("SHAPE", arguments->shape, "One of: " + names)
-      ->required()
-      ->check(CLI::IsMember(shape_names()))
-      ->type_name("");
-  command.add_option("OUT", arguments->output, "File to write: .obj, .ply, .off or .stl")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--size", arguments->size,
-                  "About how many triangles; the nearest number that the shape can have")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command.word_of("SHAPE", shape_names(), arguments->shape, "One of: " + names)
+      .word("OUT", arguments->output, "File to write: .obj, .ply, .off or .stl")
+      .number("--size", {1}, arguments->size,
+              "About how many triangles; the nearest number that the shape can have");
 }
 
 }  // namespace hedgerow::tool

@@ -1,6 +1,5 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.h"
@@ -39,13 +38,13 @@ ExitStatus inspect(Run& run, const Arguments& arguments) {
 
 void add_inspect(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "inspect", "Count what a mesh is made of and list its defects",
       "Exits with 0 for every mesh that can be parsed, whatever its defects, but for "
       "--strict.\n--json prints the fields by their stable names, and the first 100 defects.",
       "hedgerow inspect scan.ply --json",
       [arguments](Run& run) { return inspect(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
+  command.word("IN", arguments->input, "Mesh to read");
 }
 
 }  // namespace hedgerow::tool

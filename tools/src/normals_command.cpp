@@ -2,7 +2,6 @@
 #include <optional>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -95,27 +94,18 @@ ExitStatus write_normals(Run& run, const Arguments& arguments) {
 
 void add_normals(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       program.add_command("normals", "Write a PLY file with a unit normal at every vertex",
                           "A vertex without a direction, such as one on no face, gets 0 0 0.",
                           "hedgerow normals bunny.obj bunny.ply --weight angle",
                           [arguments](Run& run) { return write_normals(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command
-      .add_option("OUT.ply", arguments->output,
-                  "Binary little-endian PLY to write: x y z nx ny nz and the kept faces")
-      ->required()
-      ->type_name("");
-  command.add_option("--weight", arguments->weight, "How much each face counts at its corner")
-      ->check(CLI::IsMember({"uniform", "area", "angle", "max"}))
-      ->type_name("")
-      ->capture_default_str();
-  command
-      .add_option("--method", arguments->method,
-                  "Walk the half-edges or add up the face list; the same bits")
-      ->check(CLI::IsMember({"halfedge", "facelist"}))
-      ->type_name("")
-      ->capture_default_str();
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT.ply", arguments->output,
+            "Binary little-endian PLY to write: x y z nx ny nz and the kept faces")
+      .choice("--weight", {"uniform", "area", "angle", "max"}, arguments->weight,
+              "How much each face counts at its corner")
+      .choice("--method", {"halfedge", "facelist"}, arguments->method,
+              "Walk the half-edges or add up the face list; the same bits");
 }
 
 }  // namespace hedgerow::tool

@@ -2,9 +2,11 @@
 
 #include <array>
 
-#include <CLI/App.hpp>
-
 #include "hedgerow/defect.h"
+
+namespace CLI {
+class App;
+}
 
 namespace hedgerow::tool {
 

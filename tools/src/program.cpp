@@ -23,12 +23,14 @@ ExitStatus report(const Failure& failure) {
 
 }  // namespace
 
-Program::Program() : app_("Half-edge mesh connectivity: inspect, repair, convert, measure", kName) {
-  app_.set_version_flag("--version", version_text());
-  app_.require_subcommand(1);
-  app_.get_formatter()->column_width(34);
-  app_.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app_.footer(
+Program::Program()
+    : app_(std::make_unique<CLI::App>(
+          "Half-edge mesh connectivity: inspect, repair, convert, measure", kName)) {
+  app_->set_version_flag("--version", version_text());
+  app_->require_subcommand(1);
+  app_->get_formatter()->column_width(34);
+  app_->get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app_->footer(
       "Reads .obj .ply .off .stl .gltf .glb .wet; writes .obj .ply .off .stl .wet.\n"
       "Exit status: 0 done; 1 defects under --strict, or a check failed; 2 usage; 3 bad input;\n"
       "4 output cannot be written; 5 out of memory or too many elements.\n\n"
@@ -36,14 +38,16 @@ Program::Program() : app_("Half-edge mesh connectivity: inspect, repair, convert
       "Help on a command: hedgerow COMMAND --help");
 }
 
-CLI::App& Program::add_command(const std::string& name, const std::string& summary,
-                               const std::string& details, const std::string& example, Body body) {
-  CLI::App* command = app_.add_subcommand(name, summary);
+Program::~Program() = default;
+
+Command Program::add_command(const std::string& name, const std::string& summary,
+                             const std::string& details, const std::string& example, Body body) {
+  CLI::App* command = app_->add_subcommand(name, summary);
   command->group("Commands");
   command->footer((details.empty() ? "" : details + "\n\n") + "Example: " + example);
   add_options(*command, options_);
   commands_.emplace_back(command, std::move(body));
-  return *command;
+  return Command(*command);
 }
 
 std::string Program::unknown_command(const std::vector<std::string>& arguments) const {
@@ -55,7 +59,7 @@ std::string Program::unknown_command(const std::vector<std::string>& arguments) 
 }
 
 Failure Program::usage_failure(const CLI::ParseError& error) const {
-  const auto parsed = app_.get_subcommands();
+  const auto parsed = app_->get_subcommands();
   if (!parsed.empty()) {
     return {ExitStatus::usage,
             kName,
@@ -80,10 +84,10 @@ ExitStatus Program::run_command(const std::vector<std::string>& arguments) {
                   {"hedgerow --help lists the commands"}};
   }
   try {
-    app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help or --version
-      app_.exit(error);
+      app_->exit(error);
       return ExitStatus::done;
     }
     throw usage_failure(error);

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Error.hpp>
-
+#include "command.h"
 #include "exit_status.h"
 #include "failure.h"
 #include "options.h"
 #include "run.h"
+
+namespace CLI {
+class ParseError;
+}
 
 namespace hedgerow::tool {
 
@@ -21,11 +24,14 @@ class Program {
   using Body = std::function<ExitStatus(Run&)>;
 
   Program();
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
 
   /// A new command with the options of every command. `details` and the example are shown at the
   /// end of its help; lines of `details` should fit 100 columns.
-  CLI::App& add_command(const std::string& name, const std::string& summary,
-                        const std::string& details, const std::string& example, Body body);
+  Command add_command(const std::string& name, const std::string& summary,
+                      const std::string& details, const std::string& example, Body body);
 
   /// Parses the arguments and runs the command they name. Throws nothing.
   [[nodiscard]] ExitStatus run(int argument_count, const char* const* arguments);
@@ -35,7 +41,7 @@ class Program {
   [[nodiscard]] Failure usage_failure(const CLI::ParseError& error) const;
   [[nodiscard]] std::string unknown_command(const std::vector<std::string>& arguments) const;
 
-  CLI::App app_;
+  std::unique_ptr<CLI::App> app_;
   Options options_;
   std::vector<std::pair<CLI::App*, Body>> commands_;
 };

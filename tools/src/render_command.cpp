@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.h"
@@ -91,37 +90,22 @@ ExitStatus render_mesh(Run& run, const Arguments& arguments) {
 
 void add_render(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "render", "Draw a mesh into a PNG picture by tracing rays",
       "The camera is fitted to the mesh. The same bytes for every number of threads. Faces seen\n"
       "from behind are red under smooth and flat. valence, components and defects print a legend.",
       "hedgerow render bunny.ply bunny.png --wireframe --ao 64",
       [arguments](Run& run) { return render_mesh(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT.png", arguments->output, "Picture to write")->required()->type_name("");
-  command.add_option("--width", arguments->options.width, "Pixels across")
-      ->check(CLI::Range(1, kMaxSide))
-      ->type_name("W")
-      ->capture_default_str();
-  command.add_option("--height", arguments->options.height, "Pixels down")
-      ->check(CLI::Range(1, kMaxSide))
-      ->type_name("H")
-      ->capture_default_str();
   std::vector<std::string> names;
   for (const auto& [name, shading] : shadings()) names.push_back(name);
-  command
-      .add_option("--shading", arguments->shading,
-                  "smooth, flat, normals, valence, components or defects")
-      ->check(CLI::IsMember(names))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_flag("--wireframe", arguments->options.wireframe, "Draw the edges");
-  command
-      .add_option("--ao", arguments->options.ao_rays,
-                  "Ambient occlusion by so many rays a pixel, rounded up to a multiple of 8")
-      ->check(CLI::Range(0, kMaxAoRays))
-      ->type_name("N")
-      ->capture_default_str();
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT.png", arguments->output, "Picture to write")
+      .number("--width", {1, kMaxSide}, arguments->options.width, "Pixels across")
+      .number("--height", {1, kMaxSide}, arguments->options.height, "Pixels down")
+      .choice("--shading", names, arguments->shading, "What the colours say")
+      .flag("--wireframe", arguments->options.wireframe, "Draw the edges")
+      .number("--ao", {0, kMaxAoRays}, arguments->options.ao_rays,
+              "Ambient occlusion by so many rays a pixel, rounded up to a multiple of 8");
 }
 
 }  // namespace hedgerow::tool

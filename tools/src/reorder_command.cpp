@@ -2,7 +2,6 @@
 #include <string_view>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -94,19 +93,15 @@ ExitStatus reorder_file(Run& run, const Arguments& arguments) {
 
 void add_reorder(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "reorder", "Renumber vertices and faces so that neighbours lie close in memory",
       "Prints a measure of locality before and after, and whether the new order helped.",
       "hedgerow reorder scan.ply scan-hilbert.ply --order hilbert",
       [arguments](Run& run) { return reorder_file(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write; the kept faces only")
-      ->required()
-      ->type_name("");
-  command.add_option("--order", arguments->order, "The new order")
-      ->check(CLI::IsMember({"hilbert", "morton", "bfs", "vertex-cache"}))
-      ->type_name("")
-      ->capture_default_str();
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "Mesh to write; the kept faces only")
+      .choice("--order", {"hilbert", "morton", "bfs", "vertex-cache"}, arguments->order,
+              "The new order");
 }
 
 }  // namespace hedgerow::tool

@@ -3,7 +3,6 @@
 #include <span>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.h"
@@ -194,7 +193,7 @@ ExitStatus repair(Run& run, const Arguments& arguments) {
 
 void add_repair(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "repair", "Apply the policies to a mesh and write the result",
       "Without --policy, edges and vertices that are not manifold are split, faces with a "
       "repeated\n"
@@ -202,32 +201,23 @@ void add_repair(Program& program) {
       "silently: what was changed is printed. Under --strict nothing is written if defects remain.",
       "hedgerow repair scan.stl clean.ply --policy isolated-vertex=skip --maps maps.json",
       [arguments](Run& run) { return repair(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
-  command
-      .add_option("--weld", arguments->weld,
-                  "First merge vertices within this distance of one\n"
-                  "another, directly or by way of others; 0: those at\n"
-                  "the same place")
-      ->check([](const std::string& text) {
-        double distance = 0;
-        const bool is_good = CLI::detail::lexical_cast(text, distance) && distance >= 0;
-        return is_good ? std::string() : "a distance is a number, 0 or more, not " + text;
-      })
-      ->type_name("DISTANCE");
-  command.add_flag("--drop-duplicates", arguments->drop_duplicates,
-                   "Keep the first of the faces with the same vertices:\n"
-                   "as --policy duplicate-face=skip");
-  command.add_flag("--orient", arguments->orient,
-                   "Then turn faces over so that those of each patch\n"
-                   "agree. A patch with no orientation, as a Moebius\n"
-                   "band, is reported with a cycle of faces as proof");
-  command
-      .add_option("--maps", arguments->maps,
-                  "JSON file to write: vertices_new_to_old and\n"
-                  "faces_new_to_old, one number of the input for each\n"
-                  "vertex and face of the output")
-      ->type_name("FILE");
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "Mesh to write")
+      .optional_number("--weld", {0}, arguments->weld,
+                       "First merge vertices within this distance of one\n"
+                       "another, directly or by way of others; 0: those at\n"
+                       "the same place")
+      .flag("--drop-duplicates", arguments->drop_duplicates,
+            "Keep the first of the faces with the same vertices:\n"
+            "as --policy duplicate-face=skip")
+      .flag("--orient", arguments->orient,
+            "Then turn faces over so that those of each patch\n"
+            "agree. A patch with no orientation, as a Moebius\n"
+            "band, is reported with a cycle of faces as proof")
+      .text("--maps", "FILE", arguments->maps,
+            "JSON file to write: vertices_new_to_old and\n"
+            "faces_new_to_old, one number of the input for each\n"
+            "vertex and face of the output");
 }
 
 }  // namespace hedgerow::tool

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "before_after.h"
@@ -97,27 +96,20 @@ ExitStatus smooth_file(Run& run, const Arguments& arguments) {
 
 void add_smooth(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "smooth", "Move vertices towards the mean of their neighbours",
       "The boundary stays. Cotangent weights take triangles only. Says how many vertices moved.",
       "hedgerow smooth scan.ply smooth.ply --iterations 10",
       [arguments](Run& run) { return smooth_file(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
-  command.add_option("--iterations", arguments->iterations, "How often; 0 copies the mesh")
-      ->check(CLI::Range(0, 1000000))
-      ->type_name("N")
-      ->required();
-  command.add_option("--step", arguments->step, "How far to go to the mean: above 0, at most 1")
-      ->check(CLI::Range(1e-6F, 1.0F))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_option("--weights", arguments->weights, "umbrella, or cotangent")
-      ->check(CLI::IsMember({"umbrella", "cotangent"}))
-      ->type_name("")
-      ->capture_default_str();
-  command.add_flag("--in-place", arguments->is_in_place,
-                   "Each vertex from the newest positions, on one thread");
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "Mesh to write")
+      .needed_number("--iterations", {0, 1000000}, arguments->iterations,
+                     "How often; 0 copies the mesh")
+      .number("--step", {1e-6F, 1.0F}, arguments->step,
+              "How far to go to the mean: above 0, at most 1")
+      .choice("--weights", {"umbrella", "cotangent"}, arguments->weights, "Of the neighbours")
+      .flag("--in-place", arguments->is_in_place,
+            "Each vertex from the newest positions, on one thread");
 }
 
 }  // namespace hedgerow::tool

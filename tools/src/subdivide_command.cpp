@@ -4,7 +4,6 @@
 #include <string_view>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "before_after.h"
@@ -90,21 +89,15 @@ ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
 
 void add_subdivide(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       program.add_command("subdivide", "Refine a mesh and smooth it on the way",
                           "Loop and sqrt3 take triangles only. Prints the counts before and after.",
                           "hedgerow subdivide cube.obj ball.ply --scheme catmull-clark --levels 3",
                           [arguments](Run& run) { return subdivide_file(run, *arguments); });
-  command.add_option("IN", arguments->input, "Mesh to read")->required()->type_name("");
-  command.add_option("OUT", arguments->output, "Mesh to write")->required()->type_name("");
-  command.add_option("--scheme", arguments->scheme, "How to refine")
-      ->required()
-      ->check(CLI::IsMember({"loop", "catmull-clark", "sqrt3"}))
-      ->type_name("");
-  command.add_option("--levels", arguments->levels, "How often; 0 copies the mesh")
-      ->check(CLI::Range(0, 64))
-      ->type_name("")
-      ->capture_default_str();
+  command.word("IN", arguments->input, "Mesh to read")
+      .word("OUT", arguments->output, "Mesh to write")
+      .choice("--scheme", {"loop", "catmull-clark", "sqrt3"}, arguments->scheme, "How to refine")
+      .number("--levels", {0, 64}, arguments->levels, "How often; 0 copies the mesh");
 }
 
 }  // namespace hedgerow::tool

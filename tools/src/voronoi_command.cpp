@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clock.h"
@@ -132,26 +131,18 @@ ExitStatus write_voronoi(Run& run, const Arguments& arguments) {
 
 void add_voronoi(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command command =
       program.add_command("voronoi", "Divide a box into the cells of points in the plane",
                           "Cells are polygons and face i is the cell of point i, unless points "
                           "repeat. A picture (.svg)\n"
                           "shows cells and points; mesh files hold floats.",
                           "hedgerow voronoi stations.csv cells.svg --box 0,0,100,80",
                           [arguments](Run& run) { return write_voronoi(run, *arguments); });
-  command.add_option("POINTS", arguments->input, "Points to read: .xy or .csv")
-      ->required()
-      ->type_name("");
-  command.add_option("OUT", arguments->output, "File to write: .svg, .obj, .ply, .off or .stl")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("--box", arguments->box,
-                  "X and y of its lower left and its upper right corner, all points inside; "
-                  "without it a tenth larger than the points need")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("");
+  command.word("POINTS", arguments->input, "Points to read: .xy or .csv")
+      .word("OUT", arguments->output, "File to write: .svg, .obj, .ply, .off or .stl")
+      .numbers("--box", 4, arguments->box,
+               "X and y of its lower left and its upper right corner, all points inside; "
+               "without it a tenth larger than the points need");
 }
 
 }  // namespace hedgerow::tool

@@ -2,7 +2,6 @@
 #include <memory>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.h"
@@ -172,7 +171,7 @@ ExitStatus report(Run& run, const Arguments& arguments) {
 
 void add_report(Program& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = program.add_command(
+  Command command = program.add_command(
       "report", "Measure every operation on a mesh, checked and compared",
       "Each answer is checked against a reference before it is timed, on one thread and on all,\n"
       "beside a pointer-based and an array-of-structs half-edge mesh. Writes DIR/report.json,\n"
@@ -180,11 +179,8 @@ void add_report(Program& program) {
       "hedgerow report dragon.ply --out results --threads 2",
       [arguments](Run& run) { return report(run, *arguments); });
   command
-      .add_option("IN", arguments->input, fmt::format("Mesh to read; default: {}", kBuiltInName))
-      ->type_name("");
-  command.add_option("--out", arguments->folder, "Folder for the files; made if missing")
-      ->type_name("DIR")
-      ->capture_default_str();
+      .optional_word("IN", arguments->input, fmt::format("Mesh to read; default: {}", kBuiltInName))
+      .text("--out", "DIR", arguments->folder, "Folder for the files; made if missing");
 }
 
 }  // namespace hedgerow::tool
