@@ -1,8 +1,7 @@
 #include <span>
 
-#include <fmt/format.h>
-
 #include "binary_value.h"
+#include "compose.h"
 #include "gltf_asset.h"
 #include "tiny_gltf_config.h"
 
@@ -20,19 +19,19 @@ Parsed<Span> find_view(const GltfSource& source, const tinygltf::Model& model, i
                        const std::string& pointer) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.bufferViews.size()) {
     return gltf_failure(source, IoErrorCode::bad_accessor, pointer,
-                        fmt::format("buffer view {} of {}", index, model.bufferViews.size()));
+                        compose("buffer view {} of {}", index, model.bufferViews.size()));
   }
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
-  const std::string view_pointer = fmt::format("/bufferViews/{}", index);
+  const std::string view_pointer = compose("/bufferViews/{}", index);
   if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
     return gltf_failure(source, IoErrorCode::bad_accessor, view_pointer,
-                        fmt::format("buffer {} of {}", view.buffer, model.buffers.size()));
+                        compose("buffer {} of {}", view.buffer, model.buffers.size()));
   }
   const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
     return gltf_failure(source, IoErrorCode::bad_accessor, view_pointer,
-                        fmt::format("bytes {} and {} more of a buffer of {}", view.byteOffset,
-                                    view.byteLength, data.size()));
+                        compose("bytes {} and {} more of a buffer of {}", view.byteOffset,
+                                view.byteLength, data.size()));
   }
   return Span{reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength,
               view.byteStride};
@@ -64,10 +63,10 @@ Parsed<GltfElements> GltfElements::find(const GltfSource& source, const tinygltf
                                         int index, std::string_view pointer) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
     return gltf_failure(source, IoErrorCode::bad_accessor, pointer,
-                        fmt::format("accessor {} of {}", index, model.accessors.size()));
+                        compose("accessor {} of {}", index, model.accessors.size()));
   }
   const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
-  const std::string place = fmt::format("/accessors/{}", index);
+  const std::string place = compose("/accessors/{}", index);
   const int component_bytes =
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
   const int component_count =
@@ -91,9 +90,9 @@ Parsed<GltfElements> GltfElements::find(const GltfSource& source, const tinygltf
               elements.stride_)) {
       return gltf_failure(
           source, IoErrorCode::bad_accessor, place,
-          fmt::format("{} elements of {} bytes, {} apart, from byte {} on leave a view of {} bytes",
-                      accessor.count, elements.element_bytes_, elements.stride_,
-                      accessor.byteOffset, view->bytes));
+          compose("{} elements of {} bytes, {} apart, from byte {} on leave a view of {} bytes",
+                  accessor.count, elements.element_bytes_, elements.stride_, accessor.byteOffset,
+                  view->bytes));
     }
     elements.data_ = view->data + (accessor.count == 0 ? 0 : accessor.byteOffset);
   }
@@ -108,7 +107,7 @@ Parsed<GltfElements> GltfElements::find(const GltfSource& source, const tinygltf
 Parsed<void> GltfElements::find_sparse(const GltfSource& source, const tinygltf::Model& model,
                                        int index) {
   const auto& sparse = model.accessors[static_cast<std::size_t>(index)].sparse;
-  const std::string place = fmt::format("/accessors/{}/sparse", index);
+  const std::string place = compose("/accessors/{}/sparse", index);
   const int type = sparse.indices.componentType;
   const bool is_index_type = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                              type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
@@ -130,14 +129,14 @@ Parsed<void> GltfElements::find_sparse(const GltfSource& source, const tinygltf:
   if (!fits(*indices, index_offset, count, index_bytes, index_bytes) ||
       !fits(*values, value_offset, count, element_bytes_, element_bytes_)) {
     return gltf_failure(source, IoErrorCode::bad_accessor, place,
-                        fmt::format("{} replaced elements leave their buffer views", count));
+                        compose("{} replaced elements leave their buffer views", count));
   }
   sparse_indices_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
     sparse_indices_[j] = gltf_index(indices->data + index_offset + j * index_bytes, type);
     if (sparse_indices_[j] >= count_) {
       return gltf_failure(source, IoErrorCode::bad_accessor, place,
-                          fmt::format("element {} of {} is replaced", sparse_indices_[j], count_));
+                          compose("element {} of {} is replaced", sparse_indices_[j], count_));
     }
   }
   if (count != 0) sparse_values_ = values->data + value_offset;

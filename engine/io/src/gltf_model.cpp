@@ -2,8 +2,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "file_bytes.h"
 #include "gltf_asset.h"
 #include "json_text.h"
@@ -113,8 +112,8 @@ Parsed<void> check_asset(const GltfSource& source, const nlohmann::json& asset) 
     for (const char* refused : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
       if (extension == refused) {
         return gltf_failure(source, IoErrorCode::unsupported_feature,
-                            fmt::format("/extensionsRequired/{}", i),
-                            fmt::format("the extension {} is not read", refused));
+                            compose("/extensionsRequired/{}", i),
+                            compose("the extension {} is not read", refused));
       }
     }
   }
@@ -132,7 +131,7 @@ std::string first_line(const std::string& text) {
 tl::unexpected<Failure> gltf_failure(const GltfSource& source, IoErrorCode code,
                                      std::string_view pointer, std::string message) {
   const std::size_t offset = source.json_offset + locate_json(source.json, pointer);
-  if (!pointer.empty()) message = fmt::format("{}: {}", pointer, message);
+  if (!pointer.empty()) message = compose("{}: {}", pointer, message);
   return failure(code, offset, source.place, std::move(message));
 }
 
@@ -170,8 +169,8 @@ Parsed<void> load_gltf_model(ReadContext& context, const GltfSource& source,
   }
   if (!access.forbidden.empty()) {
     return gltf_failure(source, IoErrorCode::forbidden_uri, "/buffers",
-                        fmt::format("the URI {} does not stay in the directory of the file",
-                                    in_quotes(access.forbidden)));
+                        compose("the URI {} does not stay in the directory of the file",
+                                in_quotes(access.forbidden)));
   }
   if (!access.error.empty()) {
     return gltf_failure(source, IoErrorCode::cannot_open, "/buffers", access.error);

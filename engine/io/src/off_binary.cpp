@@ -8,9 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "binary_value.h"
+#include "compose.h"
 #include "face_collector.h"
 
 namespace hedgerow::io {
@@ -58,7 +57,7 @@ class BinaryOff {
         soup.xyz[3 * v + axis] = value;
         if (!std::isfinite(value) && !context_.options.keep_non_finite) {
           return fail(IoErrorCode::non_finite, at_ + 4 * axis,
-                      fmt::format("coordinate {} of vertex {} is {}", "xyz"[axis], v, value));
+                      compose("coordinate {} of vertex {} is {}", "xyz"[axis], v, value));
         }
       }
     }
@@ -70,7 +69,7 @@ class BinaryOff {
     }
     if (at_ != bytes_.size()) {
       context_.warn("trailing-bytes", at_, Place::binary,
-                    fmt::format("{} bytes behind the last face", bytes_.size() - at_));
+                    compose("{} bytes behind the last face", bytes_.size() - at_));
     }
     faces_.move_into(soup);
     return soup;
@@ -95,12 +94,12 @@ class BinaryOff {
     if (vertex_count_ > (left() - 12) / vertex_bytes_ ||
         face_count_ > (left() - 12 - vertex_count_ * vertex_bytes_) / smallest_face_bytes()) {
       return fail(IoErrorCode::count_too_large, at_,
-                  fmt::format("{} vertices and {} faces are declared, {} bytes follow",
-                              vertex_count_, face_count_, left() - 12));
+                  compose("{} vertices and {} faces are declared, {} bytes follow", vertex_count_,
+                          face_count_, left() - 12));
     }
     if (vertex_count_ > static_cast<std::uint64_t>(kMaxCount)) {
       return fail(IoErrorCode::too_many_elements, at_,
-                  fmt::format("{} vertices; at most {} can be read", vertex_count_, kMaxCount));
+                  compose("{} vertices; at most {} can be read", vertex_count_, kMaxCount));
     }
     at_ += 12;
     return {};
@@ -124,9 +123,8 @@ class BinaryOff {
   Parsed<void> read_face() {
     const std::size_t start = at_;
     if (!skip_face()) {
-      return fail(
-          IoErrorCode::unexpected_end, start,
-          fmt::format("the file ends inside face {} of {}", faces_.face_count(), face_count_));
+      return fail(IoErrorCode::unexpected_end, start,
+                  compose("the file ends inside face {} of {}", faces_.face_count(), face_count_));
     }
     const std::size_t degree = word_at(start);
     for (std::size_t k = 0; k < degree; ++k) {
@@ -135,15 +133,15 @@ class BinaryOff {
       const bool exists = index >= 0 && static_cast<std::size_t>(index) < vertex_count_;
       if (!exists && !context_.options.keep_out_of_range) {
         return fail(IoErrorCode::index_out_of_range, place,
-                    fmt::format("face {} refers to vertex {}, the file has {}", faces_.face_count(),
-                                index, vertex_count_));
+                    compose("face {} refers to vertex {}, the file has {}", faces_.face_count(),
+                            index, vertex_count_));
       }
       faces_.add_corner(index);
     }
     faces_.end_face();
     if (faces_.is_full(degree)) {
       return fail(IoErrorCode::too_many_elements, start,
-                  fmt::format("more than {} faces or corners", kMaxCount));
+                  compose("more than {} faces or corners", kMaxCount));
     }
     return {};
   }

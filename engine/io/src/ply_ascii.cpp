@@ -1,5 +1,5 @@
-#include <fmt/format.h>
 
+#include "compose.h"
 #include "ply_mesh.h"
 #include "text_cursor.h"
 
@@ -39,8 +39,8 @@ class AsciiBody {
     if (count > (left + 1) / (2 * element.properties.size())) {
       return mesh_.fail(
           IoErrorCode::count_too_large, element.count_offset,
-          fmt::format("{} {} records are declared, the {} bytes left hold at most {}", count,
-                      in_quotes(element.name), left, (left + 1) / (2 * element.properties.size())));
+          compose("{} {} records are declared, the {} bytes left hold at most {}", count,
+                  in_quotes(element.name), left, (left + 1) / (2 * element.properties.size())));
     }
     if (element.kind == PlyElementKind::vertices) mesh_.xyz() = Buffer<float>(3 * count);
     for (record_ = 0; record_ < count; ++record_) {
@@ -55,7 +55,7 @@ class AsciiBody {
     if (cursor_.at_end()) {
       return fail(
           IoErrorCode::unexpected_end, cursor_.end(),
-          fmt::format("the file ends before {} {} of {}", element.name, record_, element.count));
+          compose("the file ends before {} {} of {}", element.name, record_, element.count));
     }
     for (const PlyProperty& property : element.properties) {
       cursor_.skip_blanks();
@@ -74,14 +74,14 @@ class AsciiBody {
 
   bool missing(const PlyElement& element, const PlyProperty& property) {
     return fail(IoErrorCode::missing_value, cursor_.position(),
-                fmt::format("the line of {} {} ends before property {}", element.name, record_,
-                            in_quotes(property.name)));
+                compose("the line of {} {} ends before property {}", element.name, record_,
+                        in_quotes(property.name)));
   }
   bool bad_number(const PlyElement& element, const PlyProperty& property) {
-    return fail(IoErrorCode::bad_number, cursor_.position(),
-                fmt::format("property {} of {} {} is {}, which is no number of its type",
-                            in_quotes(property.name), element.name, record_,
-                            in_quotes(cursor_.peek_word())));
+    return fail(
+        IoErrorCode::bad_number, cursor_.position(),
+        compose("property {} of {} {} is {}, which is no number of its type",
+                in_quotes(property.name), element.name, record_, in_quotes(cursor_.peek_word())));
   }
 
   bool read_scalar(const PlyElement& element, const PlyProperty& property) {
@@ -112,8 +112,8 @@ class AsciiBody {
     if (status != NumberStatus::ok || !cursor_.at_word_end() || count < 0) {
       cursor_.set_position(place);
       return fail(IoErrorCode::bad_count, place,
-                  fmt::format("the count of list {} of {} {} is {}", in_quotes(property.name),
-                              element.name, record_, in_quotes(cursor_.peek_word())));
+                  compose("the count of list {} of {} {} is {}", in_quotes(property.name),
+                          element.name, record_, in_quotes(cursor_.peek_word())));
     }
     // No more than the numbers that are there is ever stored, so any count may be tried.
     return read_items(element, property, static_cast<std::size_t>(count));
@@ -128,8 +128,8 @@ class AsciiBody {
       cursor_.skip_blanks();
       if (cursor_.at_line_end()) {
         return fail(IoErrorCode::missing_value, cursor_.position(),
-                    fmt::format("list {} of {} {} has {} of {} values", in_quotes(property.name),
-                                element.name, record_, i, count));
+                    compose("list {} of {} {} has {} of {} values", in_quotes(property.name),
+                            element.name, record_, i, count));
       }
       if (!is_wanted) {
         static_cast<void>(cursor_.word());

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "binary_value.h"
+#include "compose.h"
 #include "ply_mesh.h"
 #include "text_cursor.h"
 
@@ -54,7 +53,7 @@ class BinaryBody {
     }
     if (position_ != end_) {
       mesh_.context().warn("trailing-bytes", offset(), Place::binary,
-                           fmt::format("{} bytes behind the last element", end_ - position_));
+                           compose("{} bytes behind the last element", end_ - position_));
     }
     return true;
   }
@@ -74,8 +73,8 @@ class BinaryBody {
     if (count > left() / record_bytes) {
       return mesh_.fail(
           IoErrorCode::count_too_large, offset(),
-          fmt::format("{} {} records of at least {} bytes are declared, the {} bytes left hold {}",
-                      count, in_quotes(element.name), record_bytes, left(), left() / record_bytes));
+          compose("{} {} records of at least {} bytes are declared, the {} bytes left hold {}",
+                  count, in_quotes(element.name), record_bytes, left(), left() / record_bytes));
     }
     if (element.kind == PlyElementKind::vertices) mesh_.xyz() = Buffer<float>(3 * count);
     if (!element.has_lists()) return read_fixed(element, count, record_bytes);
@@ -179,7 +178,7 @@ class BinaryBody {
   bool ends_inside(const PlyElement& element) {
     return mesh_.fail(
         IoErrorCode::unexpected_end, offset(),
-        fmt::format("the file ends inside {} {} of {}", element.name, record_, element.count));
+        compose("the file ends inside {} {} of {}", element.name, record_, element.count));
   }
 
   bool read_scalar(const PlyElement& element, const PlyProperty& property) {
@@ -204,16 +203,16 @@ class BinaryBody {
     const std::int64_t declared = scalar_as_integer<kSwap>(position_, property.count_type);
     if (declared < 0) {
       return mesh_.fail(IoErrorCode::bad_count, offset(),
-                        fmt::format("the count of list {} of {} {} is {}", in_quotes(property.name),
-                                    element.name, record_, declared));
+                        compose("the count of list {} of {} {} is {}", in_quotes(property.name),
+                                element.name, record_, declared));
     }
     const auto count = static_cast<std::size_t>(declared);
     const std::size_t item_bytes = size_bytes(property.type);
     if (count > (left() - count_bytes) / item_bytes) {
       return mesh_.fail(IoErrorCode::unexpected_end, offset(),
-                        fmt::format("list {} of {} {} has a count of {}, the {} bytes left hold {}",
-                                    in_quotes(property.name), element.name, record_, count,
-                                    left() - count_bytes, (left() - count_bytes) / item_bytes));
+                        compose("list {} of {} {} has a count of {}, the {} bytes left hold {}",
+                                in_quotes(property.name), element.name, record_, count,
+                                left() - count_bytes, (left() - count_bytes) / item_bytes));
     }
     position_ += count_bytes;
     if (property.meaning != PlyMeaning::vertex_indices) {

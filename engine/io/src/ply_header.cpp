@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "hedgerow/index.h"
 #include "text_cursor.h"
 
@@ -123,7 +122,7 @@ class HeaderReader {
     cursor_.skip_blanks();
     if (cursor_.at_line_end()) return true;
     return fail(IoErrorCode::bad_header, cursor_.position(),
-                fmt::format("{} behind the {}", in_quotes(cursor_.peek_word()), what));
+                compose("{} behind the {}", in_quotes(cursor_.peek_word()), what));
   }
 
   bool read_format() {
@@ -164,21 +163,21 @@ class HeaderReader {
     if (status == NumberStatus::bad || element.count < 0 || !cursor_.at_word_end()) {
       cursor_.set_position(place);
       return fail(IoErrorCode::bad_count, place,
-                  fmt::format("the count of element {} is {}", in_quotes(element.name),
-                              in_quotes(cursor_.peek_word())));
+                  compose("the count of element {} is {}", in_quotes(element.name),
+                          in_quotes(cursor_.peek_word())));
     }
     const bool is_too_large = status == NumberStatus::too_large;
     if (is_too_large || static_cast<std::uint64_t>(element.count) > bytes_.size() * 8) {
       cursor_.set_position(place);
       return fail(
           IoErrorCode::count_too_large, place,
-          fmt::format("element {} has a count of {} in a file of {} bytes", in_quotes(element.name),
-                      cursor_.peek_word().substr(0, 40), bytes_.size()));
+          compose("element {} has a count of {} in a file of {} bytes", in_quotes(element.name),
+                  cursor_.peek_word().substr(0, 40), bytes_.size()));
     }
     for (const PlyElement& other : header_.elements) {
       if (other.name == element.name) {
         return fail(IoErrorCode::bad_header, place,
-                    fmt::format("a second element {}", in_quotes(element.name)));
+                    compose("a second element {}", in_quotes(element.name)));
       }
     }
     header_.elements.push_back(std::move(element));
@@ -225,8 +224,8 @@ class HeaderReader {
     for (const PlyProperty& other : element.properties) {
       if (other.name == property.name) {
         return fail(IoErrorCode::duplicate_property, place,
-                    fmt::format("element {} has two properties {}", in_quotes(element.name),
-                                in_quotes(property.name)));
+                    compose("element {} has two properties {}", in_quotes(element.name),
+                            in_quotes(property.name)));
       }
     }
     element.properties.push_back(property);
@@ -266,17 +265,17 @@ class HeaderReader {
       const auto found = std::ranges::find(element.properties, wanted, &PlyProperty::name);
       if (found == element.properties.end()) {
         return fail_at(IoErrorCode::missing_property, element.count_offset,
-                       fmt::format("element \"vertex\" has no property \"{}\"", wanted));
+                       compose("element \"vertex\" has no property \"{}\"", wanted));
       }
       if (found->is_list) {
         return fail_at(IoErrorCode::bad_property, element.count_offset,
-                       fmt::format("the coordinate \"{}\" is a list", wanted));
+                       compose("the coordinate \"{}\" is a list", wanted));
       }
       found->meaning = meaning;
     }
     if (element.count > kMaxCount) {
       return fail_at(IoErrorCode::too_many_elements, element.count_offset,
-                     fmt::format("{} vertices; at most {} can be read", element.count, kMaxCount));
+                     compose("{} vertices; at most {} can be read", element.count, kMaxCount));
     }
     element.kind = PlyElementKind::vertices;
     header_.vertex_count = element.count;
@@ -288,16 +287,16 @@ class HeaderReader {
       if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
       if (!property.is_list || !is_integer(property.type)) {
         return fail_at(IoErrorCode::bad_property, element.count_offset,
-                       fmt::format("property {} of element {} must be a list of integers",
-                                   in_quotes(property.name), in_quotes(element.name)));
+                       compose("property {} of element {} must be a list of integers",
+                               in_quotes(property.name), in_quotes(element.name)));
       }
       property.meaning = PlyMeaning::vertex_indices;
       element.kind = kind;
       return true;
     }
     return fail_at(IoErrorCode::missing_property, element.count_offset,
-                   fmt::format("element {} has no list \"vertex_indices\" or \"vertex_index\"",
-                               in_quotes(element.name)));
+                   compose("element {} has no list \"vertex_indices\" or \"vertex_index\"",
+                           in_quotes(element.name)));
   }
 
   std::span<const char> bytes_;

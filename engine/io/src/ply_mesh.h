@@ -3,8 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "face_collector.h"
 #include "ply_header.h"
 #include "read_context.h"
@@ -44,8 +43,8 @@ class PlyMesh {
     }
     if (!context_.options.keep_out_of_range) {
       return fail(IoErrorCode::index_out_of_range, offset,
-                  fmt::format("face {} refers to vertex {}, the file has {}", faces_.face_count(),
-                              index, vertex_count_));
+                  compose("face {} refers to vertex {}, the file has {}", faces_.face_count(),
+                          index, vertex_count_));
     }
     const bool fits = index <= kMaxCount && index >= std::numeric_limits<Index>::min();
     vertex = fits ? static_cast<Index>(index) : kInvalidIndex;
@@ -71,11 +70,11 @@ class PlyMesh {
   bool check_room(std::size_t degree, std::size_t offset) {
     if (!faces_.is_full(degree)) return true;
     return fail(IoErrorCode::too_many_elements, offset,
-                fmt::format("more than {} faces or corners", kMaxCount));
+                compose("more than {} faces or corners", kMaxCount));
   }
   bool fail_non_finite(std::size_t vertex, int axis, double value, std::size_t offset) {
     return fail(IoErrorCode::non_finite, offset,
-                fmt::format("coordinate {} of vertex {} is {}", "xyz"[axis], vertex, value));
+                compose("coordinate {} of vertex {} is {}", "xyz"[axis], vertex, value));
   }
 
  private:

@@ -2,9 +2,8 @@
 // range and type that is used here is checked here.
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "binary_value.h"
+#include "compose.h"
 #include "face_collector.h"
 #include "gltf_asset.h"
 #include "json_text.h"
@@ -39,7 +38,7 @@ class GltfReader {
       budget_ += kMostGrowth * buffer.data.size();
     for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
       for (std::size_t p = 0; p < model_.meshes[m].primitives.size(); ++p) {
-        pointer_ = fmt::format("/meshes/{}/primitives/{}", m, p);
+        pointer_ = compose("/meshes/{}/primitives/{}", m, p);
         if (Parsed<void> done = add_primitive(model_.meshes[m].primitives[p]); !done) {
           return tl::unexpected<Failure>(done.error());
         }
@@ -65,12 +64,12 @@ class GltfReader {
                            primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     const auto position = primitive.attributes.find("POSITION");
     if (!has_faces && (primitive.mode < 0 || primitive.mode > 3)) {
-      return fail(IoErrorCode::bad_gltf, fmt::format("the mode is {}", primitive.mode));
+      return fail(IoErrorCode::bad_gltf, compose("the mode is {}", primitive.mode));
     }
     if (!has_faces || position == primitive.attributes.end()) {
       context_.warn("skipped-primitive", source_.json_offset, Place::binary,
-                    fmt::format("{} has {}", pointer_,
-                                has_faces ? "no positions" : "points or lines instead of faces"));
+                    compose("{} has {}", pointer_,
+                            has_faces ? "no positions" : "points or lines instead of faces"));
       return {};
     }
     const std::string where = pointer_ + "/attributes/POSITION";
@@ -88,7 +87,7 @@ class GltfReader {
         (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
          type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
          type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
-      return fail(IoErrorCode::bad_accessor, fmt::format("/accessors/{}", primitive.indices),
+      return fail(IoErrorCode::bad_accessor, compose("/accessors/{}", primitive.indices),
                   "indices must be unsigned integers of 8, 16 or 32 bits");
     }
     return add_faces(&*indices, points->count(), primitive);
@@ -98,14 +97,14 @@ class GltfReader {
     if (count > budget_ / bytes_each) {
       return fail(
           IoErrorCode::count_too_large,
-          fmt::format("the mesh would have more than {} times the bytes of the file", kMostGrowth));
+          compose("the mesh would have more than {} times the bytes of the file", kMostGrowth));
     }
     budget_ -= count * bytes_each;
     return {};
   }
 
   Parsed<void> add_points(const GltfElements& points, int accessor) {
-    const std::string place = fmt::format("/accessors/{}", accessor);
+    const std::string place = compose("/accessors/{}", accessor);
     if (points.component_type() != TINYGLTF_COMPONENT_TYPE_FLOAT ||
         points.type() != TINYGLTF_TYPE_VEC3 || points.is_normalized()) {
       return fail(IoErrorCode::bad_accessor, place, "positions must be VEC3 of float");
@@ -113,7 +112,7 @@ class GltfReader {
     first_vertex_ = xyz_.size() / 3;
     if (Parsed<void> spent = spend(points.count(), 3 * sizeof(float)); !spent) return spent;
     if (points.count() > static_cast<std::size_t>(kMaxCount) - first_vertex_) {
-      return fail(IoErrorCode::too_many_elements, fmt::format("more than {} vertices", kMaxCount));
+      return fail(IoErrorCode::too_many_elements, compose("more than {} vertices", kMaxCount));
     }
     float* xyz = xyz_.append(3 * points.count());
     const auto copy = [xyz](std::size_t i, const char* bytes) {
@@ -128,7 +127,7 @@ class GltfReader {
     for (std::size_t i = 0; i < 3 * points.count(); ++i) {
       if (!std::isfinite(xyz[i])) {
         return fail(IoErrorCode::non_finite, place,
-                    fmt::format("coordinate {} of element {} is {}", "xyz"[i % 3], i / 3, xyz[i]));
+                    compose("coordinate {} of element {} is {}", "xyz"[i % 3], i / 3, xyz[i]));
       }
     }
     return {};
@@ -140,7 +139,7 @@ class GltfReader {
     const std::size_t count = indices == nullptr ? point_count : indices->count();
     if (Parsed<void> spent = spend(count, 3 * sizeof(Index)); !spent) return spent;
     if (faces_.is_full(3 * std::min(count, static_cast<std::size_t>(kMaxCount) / 3))) {
-      return fail(IoErrorCode::too_many_elements, fmt::format("more than {} corners", kMaxCount));
+      return fail(IoErrorCode::too_many_elements, compose("more than {} corners", kMaxCount));
     }
     std::vector<Index> vertices(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -175,9 +174,9 @@ class GltfReader {
                                  ? faces_.face_count() + i / 3
                                  : faces_.face_count() + (i < 2 ? 0 : i - 2);
     return fail(IoErrorCode::index_out_of_range, pointer_ + "/indices",
-                fmt::format("face {} refers to vertex {} (index {} of the accessor), the primitive "
-                            "has {}",
-                            face, index, i, point_count));
+                compose("face {} refers to vertex {} (index {} of the accessor), the primitive "
+                        "has {}",
+                        face, index, i, point_count));
   }
 
   void emit(const std::vector<Index>& vertices, int mode) {
@@ -194,9 +193,9 @@ class GltfReader {
       faces_.end_face();
     }
     if (!is_fan && vertices.size() % 3 != 0) {
-      context_.warn("incomplete-triangle", source_.json_offset, Place::binary,
-                    fmt::format("{}: {} indices are no whole number of triangles", pointer_,
-                                vertices.size()));
+      context_.warn(
+          "incomplete-triangle", source_.json_offset, Place::binary,
+          compose("{}: {} indices are no whole number of triangles", pointer_, vertices.size()));
     }
   }
 
@@ -226,7 +225,7 @@ Parsed<Chunk> read_chunk(std::span<const char> bytes, std::size_t at) {
   const std::size_t left = bytes.size() - at - 8;
   if (length > left) {
     return failure(IoErrorCode::size_mismatch, at, Place::binary,
-                   fmt::format("a chunk of {} bytes is declared, {} are left", length, left));
+                   compose("a chunk of {} bytes is declared, {} are left", length, left));
   }
   return Chunk{load_little_endian<std::uint32_t>(bytes.data() + at + 4), at + 8, length};
 }
@@ -248,12 +247,12 @@ Parsed<void> check_glb_header(std::span<const char> bytes) {
   const auto version = load_little_endian<std::uint32_t>(bytes.data() + 4);
   if (version != 2) {
     return failure(IoErrorCode::unsupported_variant, 4, Place::binary,
-                   fmt::format("version {} of the container; only 2 is read", version));
+                   compose("version {} of the container; only 2 is read", version));
   }
   const auto length = load_little_endian<std::uint32_t>(bytes.data() + 8);
   if (length > bytes.size() || length < kGlbHeaderBytes) {
     return failure(IoErrorCode::size_mismatch, 8, Place::binary,
-                   fmt::format("{} bytes are declared, the file has {}", length, bytes.size()));
+                   compose("{} bytes are declared, the file has {}", length, bytes.size()));
   }
   return {};
 }
@@ -279,7 +278,7 @@ Parsed<Soup> read_glb(ReadContext& context) {
   const std::span<const char> bytes = context.bytes.first(length);
   if (length != context.bytes.size()) {
     context.warn("trailing-bytes", length, Place::binary,
-                 fmt::format("{} bytes behind the asset", context.bytes.size() - length));
+                 compose("{} bytes behind the asset", context.bytes.size() - length));
   }
   const Parsed<Chunk> json = read_chunk(bytes, kGlbHeaderBytes);
   if (!json) return tl::unexpected<Failure>(json.error());

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "face_collector.h"
 #include "read_context.h"
 #include "text_cursor.h"
@@ -117,20 +116,20 @@ class ObjReader {
         case NumberStatus::non_finite:
           if (context_.options.keep_non_finite) break;
           return fail(IoErrorCode::non_finite, place,
-                      fmt::format("coordinate {} of vertex {} is {}", "xyz"[axis], vertex_count_,
-                                  in_quotes(word_at(place))));
+                      compose("coordinate {} of vertex {} is {}", "xyz"[axis], vertex_count_,
+                              in_quotes(word_at(place))));
         case NumberStatus::none:
           return missing_coordinate(place, axis);
         default:
           if (*place == '#') return missing_coordinate(place, axis);
           return fail(IoErrorCode::bad_number, place,
-                      fmt::format("coordinate {} of vertex {} is {}, which is no number",
-                                  "xyz"[axis], vertex_count_, in_quotes(word_at(place))));
+                      compose("coordinate {} of vertex {} is {}, which is no number", "xyz"[axis],
+                              vertex_count_, in_quotes(word_at(place))));
       }
     }
     if (vertex_count_ == kMaxCount) {
       return fail(IoErrorCode::too_many_elements, cursor_.position(),
-                  fmt::format("more than {} vertices", kMaxCount));
+                  compose("more than {} vertices", kMaxCount));
     }
     ++vertex_count_;
     return skip_vertex_rest();
@@ -138,7 +137,7 @@ class ObjReader {
 
   bool missing_coordinate(const char* place, int axis) {
     return fail(IoErrorCode::missing_value, place,
-                fmt::format("vertex {} has {} of 3 coordinates", vertex_count_, axis));
+                compose("vertex {} has {} of 3 coordinates", vertex_count_, axis));
   }
 
   // A weight or a colour may follow. They are not used, but a word among them means that the line
@@ -154,8 +153,8 @@ class ObjReader {
       float unused = 0;
       if (cursor_.read_float(unused) == NumberStatus::bad) {
         return fail(IoErrorCode::bad_number, place,
-                    fmt::format("{} behind the coordinates of vertex {} is no number",
-                                in_quotes(word_at(place)), vertex_count_ - 1));
+                    compose("{} behind the coordinates of vertex {} is no number",
+                            in_quotes(word_at(place)), vertex_count_ - 1));
       }
     }
   }
@@ -178,7 +177,7 @@ class ObjReader {
     faces_.end_face();
     if (faces_.is_full(degree)) {
       return fail(IoErrorCode::too_many_elements, start,
-                  fmt::format("more than {} faces or corners", kMaxCount));
+                  compose("more than {} faces or corners", kMaxCount));
     }
     return true;
   }
@@ -198,8 +197,8 @@ class ObjReader {
     is_well_formed = is_well_formed && (cursor_.at_word_end() || is_continued());
     if (!is_well_formed) {
       return fail(IoErrorCode::bad_number, place,
-                  fmt::format("corner {} of face {} is no index", in_quotes(word_at(place)),
-                              faces_.face_count()));
+                  compose("corner {} of face {} is no index", in_quotes(word_at(place)),
+                          faces_.face_count()));
     }
     return add_corner(index, status == NumberStatus::too_large, place);
   }
@@ -218,9 +217,9 @@ class ObjReader {
       const bool is_final = index > 0 && vertex_limit_ != kUnknown;
       const std::int64_t count = is_final ? vertex_limit_ : vertex_count_;
       return fail(IoErrorCode::index_out_of_range, place,
-                  fmt::format("face {} refers to vertex {}, the file has {}{}", faces_.face_count(),
-                              index_word(place), count,
-                              is_final ? "" : (index < 0 ? " so far" : " so far; the first is 1")));
+                  compose("face {} refers to vertex {}, the file has {}{}", faces_.face_count(),
+                          index_word(place), count,
+                          is_final ? "" : (index < 0 ? " so far" : " so far; the first is 1")));
     }
     largest_index_ = is_too_large ? largest_index_ : std::max(largest_index_, vertex);
     const bool fits = !is_too_large && index != 0 && vertex <= kMaxCount &&

@@ -1,8 +1,7 @@
 // OFF as Geomview documents it; one vertex or face a line, which lets colours of any length follow.
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "face_collector.h"
 #include "off_binary.h"
 #include "off_header.h"
@@ -54,13 +53,13 @@ class OffReader {
         return cursor_.at_end() && i == 0 ? fail(IoErrorCode::unexpected_end, cursor_.end(),
                                                  "the file ends before the counts")
                                           : fail(IoErrorCode::missing_value, cursor_.position(),
-                                                 fmt::format("{} of the 3 counts on this line", i));
+                                                 compose("{} of the 3 counts on this line", i));
       }
       place = cursor_.position();
       const NumberStatus status = cursor_.read_integer(counts[i]);
       if (status == NumberStatus::bad || !cursor_.at_word_end() || counts[i] < 0) {
         return fail(IoErrorCode::bad_count, place,
-                    fmt::format("the number of {} is {}", kNames[i], word_at(place)));
+                    compose("the number of {} is {}", kNames[i], word_at(place)));
       }
       // Nobody needs the number of edges, and it is often wrong.
       const auto left = static_cast<std::size_t>(cursor_.end() - cursor_.position());
@@ -68,12 +67,12 @@ class OffReader {
       if (i < 2 &&
           (status == NumberStatus::too_large || static_cast<std::uint64_t>(counts[i]) > most)) {
         return fail(IoErrorCode::count_too_large, place,
-                    fmt::format("{} {} are declared, the {} bytes left hold at most {}",
-                                word_at(place), kNames[i], left, most));
+                    compose("{} {} are declared, the {} bytes left hold at most {}", word_at(place),
+                            kNames[i], left, most));
       }
       if (counts[i] > kMaxCount && i < 2) {
         return fail(IoErrorCode::too_many_elements, place,
-                    fmt::format("{} {}; at most {} can be read", counts[i], kNames[i], kMaxCount));
+                    compose("{} {}; at most {} can be read", counts[i], kNames[i], kMaxCount));
       }
     }
     vertex_count_ = counts[0];
@@ -89,7 +88,7 @@ class OffReader {
       context_.progress.at(cursor_.offset());
       if (cursor_.at_end()) {
         return fail(IoErrorCode::unexpected_end, cursor_.end(),
-                    fmt::format("the file ends before vertex {} of {}", v, vertex_count_));
+                    compose("the file ends before vertex {} of {}", v, vertex_count_));
       }
       for (int axis = 0; axis < 3; ++axis) {
         if (!read_coordinate(v, axis)) return false;
@@ -102,7 +101,7 @@ class OffReader {
   bool read_coordinate(std::int64_t v, int axis) {
     if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
-                  fmt::format("vertex {} has {} of 3 coordinates", v, axis));
+                  compose("vertex {} has {} of 3 coordinates", v, axis));
     }
     const char* place = cursor_.position();
     switch (cursor_.read_float(xyz_[static_cast<std::size_t>(3 * v + axis)])) {
@@ -110,13 +109,12 @@ class OffReader {
         return true;
       case NumberStatus::non_finite:
         return context_.options.keep_non_finite ||
-               fail(
-                   IoErrorCode::non_finite, place,
-                   fmt::format("coordinate {} of vertex {} is {}", "xyz"[axis], v, word_at(place)));
+               fail(IoErrorCode::non_finite, place,
+                    compose("coordinate {} of vertex {} is {}", "xyz"[axis], v, word_at(place)));
       default:
         return fail(IoErrorCode::bad_number, place,
-                    fmt::format("coordinate {} of vertex {} is {}, which is no number", "xyz"[axis],
-                                v, word_at(place)));
+                    compose("coordinate {} of vertex {} is {}, which is no number", "xyz"[axis], v,
+                            word_at(place)));
     }
   }
 
@@ -126,7 +124,7 @@ class OffReader {
       context_.progress.at(cursor_.offset());
       if (cursor_.at_end()) {
         return fail(IoErrorCode::unexpected_end, cursor_.end(),
-                    fmt::format("the file ends before face {} of {}", f, face_count_));
+                    compose("the file ends before face {} of {}", f, face_count_));
       }
       if (!read_face(f)) return false;
       cursor_.skip_to_line_end();
@@ -140,11 +138,11 @@ class OffReader {
     const NumberStatus status = cursor_.read_integer(degree);
     if (status == NumberStatus::bad || !cursor_.at_word_end()) {
       return fail(IoErrorCode::bad_number, place,
-                  fmt::format("the number of corners of face {} is {}", f, word_at(place)));
+                  compose("the number of corners of face {} is {}", f, word_at(place)));
     }
     if (degree < 0) {
       return fail(IoErrorCode::bad_face_degree, place,
-                  fmt::format("face {} has {} corners", f, degree));
+                  compose("face {} has {} corners", f, degree));
     }
     // No more than the numbers that are there is ever stored, so any count may be tried.
     if (status == NumberStatus::too_large) degree = std::numeric_limits<std::int64_t>::max();
@@ -154,29 +152,27 @@ class OffReader {
     faces_.end_face();
     return !faces_.is_full(static_cast<std::size_t>(degree)) ||
            fail(IoErrorCode::too_many_elements, place,
-                fmt::format("more than {} faces or corners", kMaxCount));
+                compose("more than {} faces or corners", kMaxCount));
   }
 
   bool read_corner(std::int64_t f, std::int64_t k, std::int64_t degree) {
     if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
-                  fmt::format("face {} has {} of {} corners", f, k, degree));
+                  compose("face {} has {} of {} corners", f, k, degree));
     }
     const char* place = cursor_.position();
     std::int64_t index = 0;
     const NumberStatus status = cursor_.read_integer(index);
     if (status == NumberStatus::bad || !cursor_.at_word_end()) {
-      return fail(
-          IoErrorCode::bad_number, place,
-          fmt::format("corner {} of face {} is {}, which is no index", k, f, word_at(place)));
+      return fail(IoErrorCode::bad_number, place,
+                  compose("corner {} of face {} is {}, which is no index", k, f, word_at(place)));
     }
     const bool is_too_large = status == NumberStatus::too_large;
     if ((is_too_large || index < 0 || index >= vertex_count_) &&
         !context_.options.keep_out_of_range) {
-      return fail(
-          IoErrorCode::index_out_of_range, place,
-          fmt::format("face {} refers to vertex {}, the file has {}", f,
-                      is_too_large ? word_at(place) : fmt::format("{}", index), vertex_count_));
+      return fail(IoErrorCode::index_out_of_range, place,
+                  compose("face {} refers to vertex {}, the file has {}", f,
+                          is_too_large ? word_at(place) : compose("{}", index), vertex_count_));
     }
     const bool fits =
         !is_too_large && index <= kMaxCount && index >= std::numeric_limits<Index>::min();

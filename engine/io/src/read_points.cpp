@@ -3,8 +3,7 @@
 #include <cctype>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "points.h"
 #include "text_cursor.h"
 
@@ -43,21 +42,21 @@ class PointsReader {
     const std::string word = in_quotes(field_at(place));
     if (status == NumberStatus::non_finite) {
       return fail(IoErrorCode::non_finite, place,
-                  fmt::format("{} of point {} is {}", kAxes[axis], points_.size(), word));
+                  compose("{} of point {} is {}", kAxes[axis], points_.size(), word));
     }
     if (field_at(place).empty()) return fail_missing(axis);
     return fail(
         IoErrorCode::bad_number, place,
-        fmt::format("{} of point {} is {}, which is no number", kAxes[axis], points_.size(), word));
+        compose("{} of point {} is {}, which is no number", kAxes[axis], points_.size(), word));
   }
   bool fail_missing(std::size_t axis) {
     return fail(IoErrorCode::missing_value, cursor_.position(),
-                fmt::format("point {} has no {}", points_.size(), kAxes[axis]));
+                compose("point {} has no {}", points_.size(), kAxes[axis]));
   }
   bool push(const Point2& point) {
     if (static_cast<std::int64_t>(points_.size()) >= std::int64_t{kMaxCount}) {
       return fail(IoErrorCode::too_many_elements, cursor_.position(),
-                  fmt::format("more than {} points", kMaxCount));
+                  compose("more than {} points", kMaxCount));
     }
     points_.push_back(point);
     return true;
@@ -202,8 +201,8 @@ class CsvReader : PointsReader {
     cursor_.skip_blanks();
     if (cursor_.at_line_end() || cursor_.at(separator_)) return true;
     return fail(IoErrorCode::bad_number, cursor_.position(),
-                fmt::format("{} follows a number of point {}; fields are apart by commas",
-                            in_quotes(field_at(cursor_.position())), points_.size()));
+                compose("{} follows a number of point {}; fields are apart by commas",
+                        in_quotes(field_at(cursor_.position())), points_.size()));
   }
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -1,9 +1,8 @@
 #include <cmath>
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "binary_value.h"
+#include "compose.h"
 #include "face_collector.h"
 #include "read_context.h"
 #include "text_cursor.h"
@@ -20,23 +19,23 @@ Parsed<Soup> read_binary(ReadContext& context) {
   const std::span<const char> bytes = context.bytes;
   if (bytes.size() < kHeaderBytes) {
     return failure(IoErrorCode::unexpected_end, bytes.size(), Place::binary,
-                   fmt::format("a binary STL file has at least {} bytes, this one has {}",
-                               kHeaderBytes, bytes.size()));
+                   compose("a binary STL file has at least {} bytes, this one has {}", kHeaderBytes,
+                           bytes.size()));
   }
   const std::size_t count = load_little_endian<std::uint32_t>(bytes.data() + 80);
   const std::size_t expected = kHeaderBytes + kRecordBytes * count;
   if (bytes.size() < expected || bytes.size() >= expected + kRecordBytes) {
     return failure(IoErrorCode::size_mismatch, 80, Place::binary,
-                   fmt::format("{} triangles are declared, which take {} bytes; the file has {}",
-                               count, expected, bytes.size()));
+                   compose("{} triangles are declared, which take {} bytes; the file has {}", count,
+                           expected, bytes.size()));
   }
   if (bytes.size() != expected) {
     context.warn("trailing-bytes", expected, Place::binary,
-                 fmt::format("{} bytes behind the last triangle", bytes.size() - expected));
+                 compose("{} bytes behind the last triangle", bytes.size() - expected));
   }
   if (count > static_cast<std::size_t>(kMaxCount) / 3) {
     return failure(IoErrorCode::too_many_elements, 80, Place::binary,
-                   fmt::format("{} triangles; at most {} can be read", count, kMaxCount / 3));
+                   compose("{} triangles; at most {} can be read", count, kMaxCount / 3));
   }
   Welder welder(3 * count);
   Soup soup;
@@ -48,9 +47,9 @@ Parsed<Soup> read_binary(ReadContext& context) {
     for (std::size_t i = 0; i < 9; ++i) {
       xyz[i] = load_little_endian<float>(bytes.data() + points + 4 * i);
       if (!std::isfinite(xyz[i]) && !context.options.keep_non_finite) {
-        return failure(IoErrorCode::non_finite, points + 4 * i, Place::binary,
-                       fmt::format("coordinate {} of corner {} of face {} is {}", "xyz"[i % 3],
-                                   i / 3, f, xyz[i]));
+        return failure(
+            IoErrorCode::non_finite, points + 4 * i, Place::binary,
+            compose("coordinate {} of corner {} of face {} is {}", "xyz"[i % 3], i / 3, f, xyz[i]));
       }
     }
     for (std::size_t k = 0; k < 3; ++k) soup.corners[3 * f + k] = welder.add(xyz + 3 * k);
@@ -94,7 +93,7 @@ class AsciiStl {
         cursor_.skip_line();  // the name may be any text
       } else {
         return fail(IoErrorCode::unexpected_word, place,
-                    fmt::format("{} where \"facet\" or \"endsolid\" is required", in_quotes(word)));
+                    compose("{} where \"facet\" or \"endsolid\" is required", in_quotes(word)));
       }
     }
     if (is_inside) {
@@ -111,11 +110,11 @@ class AsciiStl {
     const std::string_view word = cursor_.word();
     if (equals_ignoring_case(word, wanted)) return true;
     return fail(IoErrorCode::unexpected_word, place,
-                fmt::format("{} where \"{}\" is required", in_quotes(word), wanted));
+                compose("{} where \"{}\" is required", in_quotes(word), wanted));
   }
   bool ends_inside() {
     return fail(IoErrorCode::unexpected_end, cursor_.end(),
-                fmt::format("the file ends inside face {}", faces_.face_count()));
+                compose("the file ends inside face {}", faces_.face_count()));
   }
 
   // Behind the last number of its line, which programs have been known to follow by nothing.
@@ -123,8 +122,8 @@ class AsciiStl {
     cursor_.skip_blanks();
     if (cursor_.at_line_end()) return true;
     return fail(IoErrorCode::unexpected_word, cursor_.position(),
-                fmt::format("{} behind the {} of face {}", in_quotes(cursor_.peek_word()), what,
-                            faces_.face_count()));
+                compose("{} behind the {} of face {}", in_quotes(cursor_.peek_word()), what,
+                        faces_.face_count()));
   }
 
   bool read_facet() {
@@ -141,22 +140,22 @@ class AsciiStl {
       if (equals_ignoring_case(word, "endloop")) break;
       if (!equals_ignoring_case(word, "vertex")) {
         return fail(IoErrorCode::unexpected_word, place,
-                    fmt::format("{} where \"vertex\" or \"endloop\" is required", in_quotes(word)));
+                    compose("{} where \"vertex\" or \"endloop\" is required", in_quotes(word)));
       }
       if (count == 3) return bad_degree(place, "more than 3");
       if (!read_vertex(count++)) return false;
     }
-    if (count != 3) return bad_degree(loop, fmt::format("{}", count));
+    if (count != 3) return bad_degree(loop, compose("{}", count));
     if (!expect("endfacet")) return false;
     faces_.end_face();
-    return !faces_.is_full(3) || fail(IoErrorCode::too_many_elements, loop,
-                                      fmt::format("more than {} corners", kMaxCount));
+    return !faces_.is_full(3) ||
+           fail(IoErrorCode::too_many_elements, loop, compose("more than {} corners", kMaxCount));
   }
 
   bool bad_degree(const char* place, std::string_view count) {
     return fail(IoErrorCode::bad_face_degree, place,
-                fmt::format("the loop of face {} has {} vertices; an STL face has 3",
-                            faces_.face_count(), count));
+                compose("the loop of face {} has {} vertices; an STL face has 3",
+                        faces_.face_count(), count));
   }
 
   bool read_vertex(std::size_t corner) {
@@ -172,8 +171,8 @@ class AsciiStl {
           return bad_coordinate(IoErrorCode::non_finite, place, axis, corner);
         case NumberStatus::none:
           return fail(IoErrorCode::missing_value, place,
-                      fmt::format("corner {} of face {} has {} of 3 coordinates", corner,
-                                  faces_.face_count(), axis));
+                      compose("corner {} of face {} has {} of 3 coordinates", corner,
+                              faces_.face_count(), axis));
         default:
           return bad_coordinate(IoErrorCode::bad_number, place, axis, corner);
       }
@@ -185,8 +184,8 @@ class AsciiStl {
   bool bad_coordinate(IoErrorCode code, const char* place, std::size_t axis, std::size_t corner) {
     cursor_.set_position(place);
     return fail(code, place,
-                fmt::format("coordinate {} of corner {} of face {} is {}", "xyz"[axis], corner,
-                            faces_.face_count(), in_quotes(cursor_.peek_word())));
+                compose("coordinate {} of corner {} of face {} is {}", "xyz"[axis], corner,
+                        faces_.face_count(), in_quotes(cursor_.peek_word())));
   }
 
   ReadContext& context_;

@@ -3,8 +3,7 @@
 #include <iterator>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "face_collector.h"
 #include "text_cursor.h"
 #include "wet.h"
@@ -43,9 +42,9 @@ class WetReader {
   }
   bool end_line() {
     if (cursor_.ends_before_comment()) return true;
-    return fail(IoErrorCode::unexpected_word, cursor_.position(),
-                fmt::format("{} follows the last value of this line",
-                            in_quotes(word_at(cursor_.position()))));
+    return fail(
+        IoErrorCode::unexpected_word, cursor_.position(),
+        compose("{} follows the last value of this line", in_quotes(word_at(cursor_.position()))));
   }
 
   bool read_version() {
@@ -63,7 +62,7 @@ class WetReader {
     if (cursor_.read_integer(version) != NumberStatus::ok || !cursor_.at_word_end() ||
         version != 1) {
       return fail(IoErrorCode::unsupported_variant, place,
-                  fmt::format("version {}; only 1 is read", in_quotes(word_at(place))));
+                  compose("version {}; only 1 is read", in_quotes(word_at(place))));
     }
     return end_line();
   }
@@ -77,32 +76,32 @@ class WetReader {
       const auto code =
           cursor_.at_end() ? IoErrorCode::unexpected_end : IoErrorCode::unexpected_word;
       return fail(code, place,
-                  fmt::format("\"{}\" and a count are required here, not {}", kTables[i],
-                              cursor_.at_end() ? "the end" : in_quotes(word)));
+                  compose("\"{}\" and a count are required here, not {}", kTables[i],
+                          cursor_.at_end() ? "the end" : in_quotes(word)));
     }
     cursor_.set_position(place + word.size());
     if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
-                  fmt::format("the number of {} is missing", kTables[i]));
+                  compose("the number of {} is missing", kTables[i]));
     }
     place = cursor_.position();
     std::int64_t value = 0;
     const NumberStatus status = cursor_.read_integer(value);
     if (status == NumberStatus::bad || !cursor_.at_word_end() || value < 0) {
       return fail(IoErrorCode::bad_count, place,
-                  fmt::format("the number of {} is {}", kTables[i], in_quotes(word_at(place))));
+                  compose("the number of {} is {}", kTables[i], in_quotes(word_at(place))));
     }
     const auto left = static_cast<std::size_t>(cursor_.end() - cursor_.position());
     const std::size_t most = (left + 1) / kFewestBytes[i];
     if (status == NumberStatus::too_large || static_cast<std::uint64_t>(value) > most) {
       return fail(IoErrorCode::count_too_large, place,
-                  fmt::format("{} {} are declared, the {} bytes left hold at most {}",
-                              in_quotes(word_at(place)), kTables[i], left, most));
+                  compose("{} {} are declared, the {} bytes left hold at most {}",
+                          in_quotes(word_at(place)), kTables[i], left, most));
     }
     // Sides are numbered, two an edge.
     if (value > kMaxCount / 2) {
       return fail(IoErrorCode::too_many_elements, place,
-                  fmt::format("{} {}; at most {} can be read", value, kTables[i], kMaxCount / 2));
+                  compose("{} {}; at most {} can be read", value, kTables[i], kMaxCount / 2));
     }
     count = static_cast<std::size_t>(value);
     if (!end_line()) return false;
@@ -115,7 +114,7 @@ class WetReader {
     context_.progress.at(cursor_.offset());
     if (!cursor_.at_end()) return true;
     return fail(IoErrorCode::unexpected_end, cursor_.end(),
-                fmt::format("the file ends before {} row {} of {}", name(table), row + 1, count));
+                compose("the file ends before {} row {} of {}", name(table), row + 1, count));
   }
 
   // 0 is none; a number that no row can have becomes one that no row has.
@@ -123,15 +122,15 @@ class WetReader {
     const char* place = cursor_.position();
     if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
-                  fmt::format("{} row {} has no {}", name(table), row + 1, column));
+                  compose("{} row {} has no {}", name(table), row + 1, column));
     }
     place = cursor_.position();
     std::int64_t number = 0;
     const NumberStatus status = cursor_.read_integer(number);
     if (status == NumberStatus::bad || !cursor_.at_word_end()) {
       return fail(IoErrorCode::bad_number, place,
-                  fmt::format("{} of {} row {} is {}, which is no number", column, name(table),
-                              row + 1, in_quotes(word_at(place))));
+                  compose("{} of {} row {} is {}, which is no number", column, name(table), row + 1,
+                          in_quotes(word_at(place))));
     }
     const bool fits = status == NumberStatus::ok && number >= 0 && number <= kMaxCount;
     value = fits ? static_cast<Index>(number - 1) : kMaxCount;
@@ -141,7 +140,7 @@ class WetReader {
   bool read_coordinate(std::size_t row, int axis, float& value) {
     if (cursor_.ends_before_comment()) {
       return fail(IoErrorCode::missing_value, cursor_.position(),
-                  fmt::format("vertices row {} has {} of 3 coordinates", row + 1, axis));
+                  compose("vertices row {} has {} of 3 coordinates", row + 1, axis));
     }
     const char* place = cursor_.position();
     const NumberStatus status = cursor_.read_float(value);
@@ -149,8 +148,8 @@ class WetReader {
     if (status == NumberStatus::non_finite && context_.options.keep_non_finite) return true;
     const bool is_number = status == NumberStatus::non_finite;
     return fail(is_number ? IoErrorCode::non_finite : IoErrorCode::bad_number, place,
-                fmt::format("{} of vertices row {} is {}{}", "xyz"[axis], row + 1,
-                            in_quotes(word_at(place)), is_number ? "" : ", which is no number"));
+                compose("{} of vertices row {} is {}{}", "xyz"[axis], row + 1,
+                        in_quotes(word_at(place)), is_number ? "" : ", which is no number"));
   }
 
   bool read_vertices() {
@@ -205,7 +204,7 @@ class WetReader {
     cursor_.skip_space_and_comments();
     return cursor_.at_end() ||
            fail(IoErrorCode::unexpected_word, cursor_.position(),
-                fmt::format("{} follows the last row", in_quotes(word_at(cursor_.position()))));
+                compose("{} follows the last row", in_quotes(word_at(cursor_.position()))));
   }
 
   // Looks the entry up in the text again, for its place and its digits.
@@ -224,7 +223,7 @@ class WetReader {
     }
     const char* place = cursor_.position();
     std::string message = describe(fault, std::string(word_at(place)));
-    if (fault_count > 1) message += fmt::format("; {} entries in all", fault_count);
+    if (fault_count > 1) message += compose("; {} entries in all", fault_count);
     fail(IoErrorCode::inconsistent_table, place, std::move(message));
   }
 
@@ -275,8 +274,8 @@ Parsed<Soup> read_wet(ReadContext& context) {
 }
 
 std::string describe(const WingedFault& fault, const std::string& found) {
-  return fmt::format("{} row {}, column {}: found {}, consistent would be {}", name(fault.table),
-                     fault.row + 1, name(fault.column), found, fault.expected + 1);
+  return compose("{} row {}, column {}: found {}, consistent would be {}", name(fault.table),
+                 fault.row + 1, name(fault.column), found, fault.expected + 1);
 }
 
 }  // namespace hedgerow::io

@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "failure.h"
 #include "hedgerow/io/winged_edge.h"
 #include "output.h"
@@ -17,10 +16,10 @@ namespace hedgerow::io {
 namespace {
 
 std::optional<std::string> defect_of(const Positions& points, const char* what) {
-  if (points.count < 0) return fmt::format("a negative number of {}", what);
-  if (points.count > 0 && points.data == nullptr) return fmt::format("no address of the {}", what);
+  if (points.count < 0) return compose("a negative number of {}", what);
+  if (points.count > 0 && points.data == nullptr) return compose("no address of the {}", what);
   if (points.count > 0 && points.stride_bytes < 3 * sizeof(float)) {
-    return fmt::format("the {} are {} bytes apart, each has 12", what, points.stride_bytes);
+    return compose("the {} are {} bytes apart, each has 12", what, points.stride_bytes);
   }
   return std::nullopt;
 }
@@ -31,20 +30,20 @@ std::optional<std::string> defect_of(const WriteInput& input) {
   if (auto defect = defect_of(input.positions, "positions")) return defect;
   if (auto defect = defect_of(input.normals, "normals")) return defect;
   if (input.normals.count != 0 && input.normals.count != input.positions.count) {
-    return fmt::format("{} normals for {} vertices", input.normals.count, input.positions.count);
+    return compose("{} normals for {} vertices", input.normals.count, input.positions.count);
   }
   if (const Result<void> checked = check(input.faces); !checked) {
     const Error& error = checked.error();
-    return fmt::format("the face list is not sound: {} (element {}, value {}, limit {})",
-                       name(error.code), error.element, error.value, error.limit);
+    return compose("the face list is not sound: {} (element {}, value {}, limit {})",
+                   name(error.code), error.element, error.value, error.limit);
   }
   for (std::int64_t f = 0; f < input.faces.face_count; ++f) {
     const std::int64_t degree = input.faces.corner_range(f).size();
     for (std::int64_t k = 0; k < degree; ++k) {
       const std::int64_t vertex = vertex_at(input.faces, f, k);
       if (vertex < 0 || vertex >= input.positions.count) {
-        return fmt::format("face {} refers to vertex {}, there are {}", f, vertex,
-                           input.positions.count);
+        return compose("face {} refers to vertex {}, there are {}", f, vertex,
+                       input.positions.count);
       }
     }
   }
@@ -56,14 +55,14 @@ std::optional<std::string> excess_of(const WriteInput& input, Format format) {
   constexpr std::int64_t kLargestInt = std::numeric_limits<std::int32_t>::max();
   constexpr std::int64_t kLargestUnsigned = std::numeric_limits<std::uint32_t>::max();
   if (format == Format::ply && input.positions.count > kLargestInt) {
-    return fmt::format("{} vertices; the int indices of PLY reach {}", input.positions.count,
-                       kLargestInt);
+    return compose("{} vertices; the int indices of PLY reach {}", input.positions.count,
+                   kLargestInt);
   }
   // A face of n corners becomes n - 2 triangles.
   const std::int64_t most_triangles =
       input.faces.is_triangles() ? input.faces.face_count : input.faces.corner_count();
   if (format == Format::stl && most_triangles > kLargestUnsigned) {
-    return fmt::format("up to {} triangles; STL counts to {}", most_triangles, kLargestUnsigned);
+    return compose("up to {} triangles; STL counts to {}", most_triangles, kLargestUnsigned);
   }
   return std::nullopt;
 }

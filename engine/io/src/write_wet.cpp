@@ -1,7 +1,6 @@
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "compose.h"
 #include "hedgerow/build.h"
 #include "hedgerow/io/winged_edge.h"
 #include "wet.h"
@@ -18,18 +17,17 @@ tl::unexpected<Failure> cannot_hold(std::string why) {
 std::string text_of(const Error& error) {
   switch (error.code) {
     case ErrorCode::too_few_corners:
-      return fmt::format("face {} has {} corners", error.element, error.value);
+      return compose("face {} has {} corners", error.element, error.value);
     case ErrorCode::repeated_vertex:
-      return fmt::format("face {} has vertex {} more than once", error.element, error.value);
+      return compose("face {} has vertex {} more than once", error.element, error.value);
     case ErrorCode::nonmanifold_edge:
-      return fmt::format("half-edge {} is on an edge with {} half-edges", error.element,
-                         error.value);
+      return compose("half-edge {} is on an edge with {} half-edges", error.element, error.value);
     case ErrorCode::nonmanifold_vertex:
-      return fmt::format("the faces at vertex {} form {} groups, its record names one",
-                         error.element, error.value);
+      return compose("the faces at vertex {} form {} groups, its record names one", error.element,
+                     error.value);
     default:
-      return fmt::format("{} (element {}, value {}, limit {})", name(error.code), error.element,
-                         error.value, error.limit);
+      return compose("{} (element {}, value {}, limit {})", name(error.code), error.element,
+                     error.value, error.limit);
   }
 }
 
@@ -93,11 +91,11 @@ IoResult<WriteOutput> write_winged_edges(const std::filesystem::path& path,
   if (tables.xyz.size() != 3 * tables.vertex_edge.size()) {
     return refuse(
         path, IoErrorCode::bad_mesh,
-        fmt::format("{} coordinates for {} vertices", tables.xyz.size(), tables.vertex_count()));
+        compose("{} coordinates for {} vertices", tables.xyz.size(), tables.vertex_count()));
   }
   if (const std::vector<WingedFault> faults = check_winged_edges(tables); !faults.empty()) {
     const std::int64_t found = std::int64_t{faults.front().found} + 1;
-    return refuse(path, IoErrorCode::bad_mesh, describe(faults.front(), fmt::format("{}", found)));
+    return refuse(path, IoErrorCode::bad_mesh, describe(faults.front(), compose("{}", found)));
   }
   IoResult<AtomicFile> file = AtomicFile::create(path, {options.durable});
   if (!file) return tl::unexpected<IoError>(std::move(file.error()));
