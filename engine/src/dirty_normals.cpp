@@ -38,6 +38,23 @@ void for_each_moved(const MovedVertices& moved, const Visit& visit) {
   }
 }
 
+// The vertices of all those faces.
+template <class Mesh>
+void insert_corners(const Mesh& mesh, std::span<const Index> faces,
+                    kernels::IndexSet& vertices) noexcept {
+  for (const Index f : faces) {
+    const Index begin = mesh.first(FaceId(f)).value;
+    const auto insert = [&](Index corner) {
+      vertices.insert(mesh.origin[HalfedgeId(begin + corner)].value);
+    };
+    if constexpr (std::is_same_v<Mesh, TriangleView>) {
+      for (const Index corner : {0, 1, 2}) insert(corner);
+    } else {
+      for (Index corner = 0; corner < mesh.degree(FaceId(f)); ++corner) insert(corner);
+    }
+  }
+}
+
 struct Named {
   std::int64_t count = 0;
   Error error{ErrorCode::index_out_of_range, kInvalidIndex, 0, 0, 0};
@@ -83,18 +100,12 @@ void DirtySet::collect(const Mesh& mesh, const MovedVertices& moved) {
     kernels::for_each_face(mesh, VertexId(v), [&](Index f) { face_set.insert(f); });
   };
   for_each_moved(moved, [&](Index, Index v) { insert_faces(v); });
-  face_set.drain([&](Index f) {
-    faces_[face_count_++] = f;
-    const Index begin = mesh.first(FaceId(f)).value;
-    const Index end = begin + mesh.degree(FaceId(f));
-    for (Index h = begin; h < end; ++h) vertex_set.insert(mesh.origin[HalfedgeId(h)].value);
-  });
-  const bool needs_ring = !ring_faces_.empty();
-  vertex_set.drain([&](Index v) {
-    vertices_[vertex_count_++] = v;
-    if (needs_ring) insert_faces(v);
-  });
-  if (needs_ring) face_set.drain([&](Index f) { ring_faces_[ring_face_count_++] = f; });
+  face_count_ = face_set.drain_into(faces_.data());
+  insert_corners(mesh, faces(), vertex_set);
+  vertex_count_ = vertex_set.drain_into(vertices_.data());
+  if (ring_faces_.empty()) return;
+  for (const Index v : vertices()) insert_faces(v);
+  ring_face_count_ = face_set.drain_into(ring_faces_.data());
 }
 
 Result<void> DirtySet::find(const Connectivity& mesh, const MovedVertices& moved) {

@@ -28,7 +28,7 @@ class IndexSet {
   /// with, `is_zero` says; it is made so when the first number comes. Null: it does.
   IndexSet(void* memory, Index size, bool* is_zero = nullptr) noexcept
       : memory_(memory), bytes_(bytes(size)), is_zero_(is_zero) {
-    auto* words = static_cast<std::uint64_t*>(memory);
+    auto* words = bits_ = static_cast<std::uint64_t*>(memory);
     std::size_t level = static_cast<std::size_t>(size);
     do {
       level = (level + 63) / 64;
@@ -42,13 +42,12 @@ class IndexSet {
       std::memset(memory_, 0, bytes_);
       *is_zero_ = true;
     }
-    auto i = static_cast<std::size_t>(number);
-    for (int level = 0; level < count_; ++level, i >>= 6) {
-      std::uint64_t& word = levels_[level][i >> 6];
-      const bool was_known_above = word != 0;
-      word |= std::uint64_t{1} << (i & 63);
-      if (was_known_above) return;
-    }
+    const auto i = static_cast<std::size_t>(number);
+    std::uint64_t& word = bits_[i >> 6];
+    const std::uint64_t before = word;
+    word = before | std::uint64_t{1} << (i & 63);
+    if (before == 0) [[unlikely]]
+      insert_above(i >> 6);
   }
   /// \pre a number was inserted, or the memory holds zeros
   [[nodiscard]] bool empty() const noexcept { return levels_[count_ - 1][0] == 0; }
@@ -86,12 +85,30 @@ class IndexSet {
       }
     }
   }
+  /// Writes all of them to `to` in ascending order, leaves none, and says how many there were.
+  [[nodiscard]] std::size_t drain_into(Index* to) noexcept {
+    Index* end = to;
+    drain([&end](Index number) { *end++ = number; });
+    return static_cast<std::size_t>(end - to);
+  }
 
  private:
+  // Word i of the lowest level is no longer zero. Rare, and inlined it costs the others their
+  // registers.
+  [[gnu::noinline]] void insert_above(std::size_t i) noexcept {
+    for (int level = 1; level < count_; ++level, i >>= 6) {
+      std::uint64_t& word = levels_[level][i >> 6];
+      const bool was_known_above = word != 0;
+      word |= std::uint64_t{1} << (i & 63);
+      if (was_known_above) return;
+    }
+  }
+
   static constexpr int kMaxLevels = 11;  // 64-bit indices
   void* memory_;
   std::size_t bytes_;
   bool* is_zero_;
+  std::uint64_t* bits_ = nullptr;  // levels_[0], once more where inserting finds it at once
   std::uint64_t* levels_[kMaxLevels] = {};
   int count_ = 0;
 };
