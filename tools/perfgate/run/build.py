@@ -96,18 +96,23 @@ class Builder:
         build.mkdir(exist_ok=True)
         places = {"{source}": str(source), "{build}": str(build)}
 
+        # The same file names in both programs: else assertions and logs would make code differ.
+        same_names = f"-ffile-prefix-map={source}=."
+
         def filled(arguments: Sequence[str]) -> List[str]:
             texts = []
             for text in arguments:
                 for place, path in places.items():
                     text = text.replace(place, path)
+                # Flags given here take the place of those of the environment.
+                if text.startswith(("-DCMAKE_C_FLAGS=", "-DCMAKE_CXX_FLAGS=")):
+                    text = f"{text} {same_names}"
                 texts.append(text)
             return texts
 
-        # The same file names in both programs: else assertions and logs would make code differ.
         environment = {**os.environ}
         for key in ("CFLAGS", "CXXFLAGS"):
-            environment[key] = f"{os.environ.get(key, '')} -ffile-prefix-map={source}=.".strip()
+            environment[key] = f"{os.environ.get(key, '')} {same_names}".strip()
         configure = self.table.get("configure", DEFAULT_CONFIGURE)
         quiet(["cmake", "-S", str(source), "-B", str(build), *filled(configure), *filled(more)],
               build / "configure.log", environment)

@@ -6,6 +6,7 @@ import os
 import pathlib
 import platform
 import random
+import re
 import shutil
 from dataclasses import dataclass
 from typing import Dict, List, Mapping, Optional, Tuple
@@ -166,10 +167,18 @@ def random_pad(rng: random.Random) -> int:
     return rng.randrange(0, MAX_PAD_BYTES + 1)
 
 
+def comparable(value: object) -> object:
+    """Flags without those that give files the same names in builds of different folders."""
+    if not isinstance(value, str):
+        return value
+    return " ".join(re.sub(r"-f(file|macro|debug)-prefix-map=\S*", "", value).split())
+
+
 def contexts_differ(base: Mapping[str, object], head: Mapping[str, object],
                     keys: List[str]) -> List[str]:
     return [f"{key}: {base[key]!r} and {head[key]!r}" for key in keys
-            if None not in (base.get(key), head.get(key)) and base[key] != head[key]]
+            if None not in (base.get(key), head.get(key)) and
+            comparable(base[key]) != comparable(head[key])]
 
 
 def counters_of(sample: Sample) -> Tuple[Dict[str, float], Optional[str]]:
