@@ -36,13 +36,24 @@ std::string compare_count(Index component_count, const Dataset& data) {
 }
 
 Work prepare_components(const Dataset& data, const Execution& execution) {
-  auto components = std::make_shared<Components>();
-  Work work;
-  work.run = [&data, components, execution] {
-    *components = connected_components(data.mesh, execution);
+  // Kept from run to run, as a program would that asks again and again.
+  struct Labels {
+    Buffer<Index> label;
+    Workspace workspace;
+    Result<Index> count;
   };
-  work.check = [&data, components] { return compare_count(components->count, data); };
-  work.digest = [components] { return digest_of(components->label); };
+  auto labels = std::make_shared<Labels>(
+      Labels{Buffer<Index>(static_cast<std::size_t>(data.mesh.vertex_count())), {}, Index{0}});
+  Work work;
+  work.run = [&data, labels, execution] {
+    labels->count =
+        connected_components(data.mesh, labels->label.span(), execution, labels->workspace);
+  };
+  work.check = [&data, labels] {
+    return labels->count ? compare_count(*labels->count, data)
+                         : "the operation failed; not measured";
+  };
+  work.digest = [labels] { return digest_of(labels->label); };
   return work;
 }
 

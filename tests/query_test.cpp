@@ -1,6 +1,7 @@
 #include "hedgerow/query.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,36 @@ TEST(Query, LabelsComponentsTheSameForEveryThreadCount) {
       }
     }
   }
+}
+
+TEST(Query, LabelsInMemoryOfTheCallerOrNotAtAll) {
+  const auto output = build(shapes::grid(30, 20)->face_list(), {}, Execution::serial());
+  ASSERT_TRUE(output);
+  const Connectivity& mesh = output->mesh;
+  const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count());
+  const Components expected = connected_components(mesh);
+  Threads threads(4);
+  const Execution four_runs = threads.execution(100);
+  std::vector<Index> labels(vertex_count, -7);
+
+  std::array<std::byte, 64> little{};
+  Workspace fixed(little);
+  const auto too_little = connected_components(mesh, labels, four_runs, fixed);
+  ASSERT_FALSE(too_little);
+  EXPECT_EQ(too_little.error().code, ErrorCode::scratch_too_small);
+  EXPECT_GT(too_little.error().limit, 3 * static_cast<std::int64_t>(vertex_count * sizeof(Index)));
+  const auto too_few =
+      connected_components(mesh, std::span(labels).first(vertex_count - 1), four_runs, fixed);
+  ASSERT_FALSE(too_few);
+  EXPECT_EQ(too_few.error().code, ErrorCode::count_mismatch);
+  EXPECT_EQ(labels, std::vector<Index>(vertex_count, -7));
+
+  std::vector<std::byte> enough(static_cast<std::size_t>(too_little.error().limit) + 63);
+  Workspace exact(enough);
+  const auto count = connected_components(mesh, labels, four_runs, exact);
+  ASSERT_TRUE(count);
+  EXPECT_EQ(*count, expected.count);
+  EXPECT_EQ(labels, to_vector(expected.label));
 }
 
 // Faces in an order that hangs each root below the next: were walks to the root not cut short, they

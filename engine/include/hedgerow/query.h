@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "hedgerow/buffer.h"
 #include "hedgerow/build.h"
@@ -10,6 +11,7 @@
 #include "hedgerow/execution.h"
 #include "hedgerow/positions.h"
 #include "hedgerow/result.h"
+#include "hedgerow/workspace.h"
 
 /// Questions about one element, on either view and in both forms; then about the whole mesh.
 ///
@@ -100,9 +102,20 @@ struct Components {
   Index count = 0;      ///< isolated vertices left out
 };
 
-/// Reads `origin` once, and writes the labels. O(V + H) joins, each O(log V) at the worst and a few
-/// steps in practice; besides the labels it takes V indices for each further thread. Two threads
-/// are used from 262,144 faces on.
+/// Writes for each vertex the smallest vertex of its component, or -1 if it is isolated, and
+/// returns how many components there are, isolated vertices left out. The same labels for every
+/// number of threads.
+///
+/// Shapes     `labels`: one a vertex.
+/// Complexity O(V + H) joins, each O(log V) at the worst and a few steps in practice. `origin` and
+///            `outgoing` are read once. Two threads are used from 262,144 faces on.
+/// Scratch    Nothing for one run; an index a vertex for each further thread, and a little.
+/// Errors     count_mismatch: not one label a vertex; scratch_too_small: a fixed workspace is. The
+///            labels are as they were.
+/// Threads    Writes `labels` and the workspace, reads the mesh.
+[[nodiscard]] Result<Index> connected_components(const Connectivity& mesh, std::span<Index> labels,
+                                                 const Execution& execution, Workspace& workspace);
+/// The same, with memory of its own. Throws std::bad_alloc.
 [[nodiscard]] Components connected_components(const Connectivity& mesh,
                                               const Execution& execution = Execution::serial());
 

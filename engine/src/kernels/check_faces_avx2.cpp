@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kernels/check_faces.h"
+#include "kernels/prefetch.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -46,12 +47,20 @@ __m256i load(const Index* p) noexcept {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
 }
 
-// Lane i of vector j holds index 8j + i: -1 where the index `ahead` places on belongs to the same
-// triangle.
-__m256i same_triangle(int j, int ahead) noexcept {
-  const auto lane = [&](int i) { return (8 * j + i) % 3 + ahead < 3 ? -1 : 0; };
-  return _mm256_setr_epi32(lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7));
-}
+// Element i: -1 where the index `ahead` places behind index i of a group belongs to its triangle.
+template <int ahead>
+struct SameTriangle {
+  alignas(32) int lane[3 * kGroup];
+
+  constexpr SameTriangle() noexcept : lane{} {
+    for (int i = 0; i < 3 * kGroup; ++i) lane[i] = i % 3 + ahead < 3 ? -1 : 0;
+  }
+  [[nodiscard]] __m256i vector(int j) const noexcept {
+    return _mm256_load_si256(reinterpret_cast<const __m256i*>(lane + 8 * j));
+  }
+};
+constexpr SameTriangle<1> kNextIsSame;
+constexpr SameTriangle<2> kAfterIsSame;
 
 Group look_at(const Index* c, const Bounds& bounds) noexcept {
   __m256i largest = _mm256_setzero_si256();
@@ -62,8 +71,9 @@ Group look_at(const Index* c, const Bounds& bounds) noexcept {
     largest = _mm256_max_epu32(largest, v);
     const __m256i next = _mm256_cmpeq_epi32(v, load(c + 8 * j + 1));
     const __m256i after = _mm256_cmpeq_epi32(v, load(c + 8 * j + 2));
-    equal = _mm256_or_si256(equal, _mm256_or_si256(_mm256_and_si256(next, same_triangle(j, 1)),
-                                                   _mm256_and_si256(after, same_triangle(j, 2))));
+    equal =
+        _mm256_or_si256(equal, _mm256_or_si256(_mm256_and_si256(next, kNextIsSame.vector(j)),
+                                               _mm256_and_si256(after, kAfterIsSame.vector(j))));
     const __m256i block = _mm256_srl_epi32(v, bounds.shift);
     // The lookup takes the remainder itself.
     const __m256i known =
@@ -92,7 +102,10 @@ FaceCheck check_triangle_runs_avx2(IndexRange range, const FaceColumns& faces, I
     Index f = r * run_length;
     const Index end = std::min(faces.face_count, f + run_length);
     for (; f + kGroup <= end && 3 * (f + kGroup) <= readable; f += kGroup) {
-      const Group group = look_at(faces.corners + 3 * f, bounds);
+      const Index* c = faces.corners + 3 * f;
+      prefetch_ahead(c);
+      prefetch_ahead(c + 16);
+      const Group group = look_at(c, bounds);
       if (!group.is_good) check = check + check_faces({f, f + kGroup}, faces);
       if (group.is_in_blocks || run.count == kWide) continue;
       add_blocks(faces, {f, f + kGroup}, block_shift, run);

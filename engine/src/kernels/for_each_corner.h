@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/face_columns.h"
+#include "kernels/prefetch.h"
 
 namespace hedgerow::kernels {
 
@@ -18,6 +19,7 @@ void for_each_corner(IndexRange range, const FaceColumns& faces, const Visit& vi
   const Index* c = faces.corners;
   if (faces.is_triangles()) {
     for (Index h = 3 * range.begin; h < 3 * range.end; h += 3) {
+      prefetch_ahead(c + h);
       const Index v0 = c[h];
       const Index v1 = c[h + 1];
       const Index v2 = c[h + 2];

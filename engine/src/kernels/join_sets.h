@@ -1,6 +1,9 @@
 #pragma once
 
+#include <atomic>
+
 #include "hedgerow/topology.h"
+#include "kernels/prefetch.h"
 
 /// Disjoint sets of numbers as trees in one array: a root is its own parent, every other number has
 /// a smaller one. So the root of a set is its smallest number, in whatever order sets were joined.
@@ -34,10 +37,12 @@ inline void join_sets(Index* parent, Index a, Index b) noexcept {
 /// later walks are short.
 template <Topology Mesh>
 void join_faces(IndexRange faces, const Mesh& mesh, Index* parent) noexcept {
+  const Index* first_corner = mesh.origin.data();
   for (Index i = faces.begin; i < faces.end; ++i) {
     const Index begin = mesh.first(FaceId(i)).value;
     const Index end = begin + mesh.degree(FaceId(i));
     const auto corner = [&](Index h) { return mesh.origin[HalfedgeId(h)].value; };
+    prefetch_ahead(first_corner + begin);
     const Index shared = parent[corner(begin)];
     bool is_joined = true;
     for (Index h = begin + 1; h < end; ++h) {
@@ -69,29 +74,52 @@ void join_halfedges(IndexRange halfedges, const Mesh& mesh, Index* parent) noexc
   }
 }
 
-/// Joins what `other`, trees over the same numbers, has joined in `range`.
+/// The part of joining what `other` has joined, trees over the same numbers, that several ranges
+/// may have done to them side by side: a root of `parent` hangs on what it hangs on in `other`.
+/// Returns whether that leaves something for `join_trees`.
+[[nodiscard]] inline bool hang_roots(IndexRange range, const Index* other, Index* parent) noexcept {
+  Index left = 0;
+  for (Index i = range.begin; i < range.end; ++i) {
+    const Index above = other[i];
+    const Index own = parent[i];
+    const bool is_root = own == i;
+    parent[i] = is_root ? above : own;
+    left |= static_cast<Index>(!is_root & (above != i) & (above != own));
+  }
+  return left != 0;
+}
+
+/// Joins the rest of what `other` has joined in `range`.
 inline void join_trees(IndexRange range, const Index* other, Index* parent) noexcept {
   for (Index i = range.begin; i < range.end; ++i) {
-    if (other[i] == i) continue;
-    // A root may hang on any smaller number of its new set, and most are alone.
-    if (parent[i] == i) {
-      parent[i] = other[i];
-    } else {
-      join_sets(parent, i, other[i]);
-    }
+    if (other[i] != i) join_sets(parent, i, other[i]);
   }
 }
 
-/// The root of each vertex in its place, or -1 if it is isolated; returns how many sets there are.
-/// In ascending order each parent has been replaced by its root before its children are.
+/// The root of each vertex of `range` in its place, or -1 if it is isolated; returns how many roots
+/// there are among them. Ranges may be labelled side by side: what is met on the way up is a root
+/// or leads to one, whether another range has replaced it already or not, and nothing leads to an
+/// isolated vertex. (Hence the relaxed atomic accesses, which cost nothing.)
 template <Topology Mesh>
-[[nodiscard]] Index label_roots(const Mesh& mesh, Index* parent) noexcept {
+[[nodiscard]] Index label_roots(IndexRange range, const Mesh& mesh, Index* parent) noexcept {
+  constexpr Index kBlock = 16;
+  const auto at = [parent](Index i) { return std::atomic_ref<Index>(parent[i]); };
+  const Index* outgoing = mesh.outgoing.data();
   Index count = 0;
-  for (Index i = 0; i < mesh.vertex_count(); ++i) {
-    const bool is_isolated = !mesh.outgoing[VertexId(i)].valid();
-    const Index root = parent[parent[i]];
-    count += static_cast<Index>(root == i && !is_isolated);
-    parent[i] = is_isolated ? kInvalidIndex : root;
+  for (Index begin = range.begin; begin < range.end; begin += kBlock) {
+    const Index end = range.end - begin < kBlock ? range.end : begin + kBlock;
+    prefetch_ahead(outgoing + begin);
+    prefetch_ahead(parent + begin);
+    for (Index i = begin; i < end; ++i) {
+      const bool is_isolated = outgoing[i] < 0;
+      Index root = at(i).load(std::memory_order_relaxed);
+      for (Index above = at(root).load(std::memory_order_relaxed); above != root;) {
+        root = above;
+        above = at(root).load(std::memory_order_relaxed);
+      }
+      count += static_cast<Index>(root == i && !is_isolated);
+      at(i).store(is_isolated ? kInvalidIndex : root, std::memory_order_relaxed);
+    }
   }
   return count;
 }

@@ -2,9 +2,13 @@
 // joined two by two. A root is the smallest vertex of its set whatever the order of the joins, so
 // neither the number of runs nor the schedule shows in the labels.
 
-#include <utility>
-#include <vector>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 
+#include "hedgerow/assert.h"
 #include "hedgerow/query.h"
 #include "kernels/join_sets.h"
 #include "parallel/parallel.h"
@@ -14,6 +18,7 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kGrain = 1 << 17;  // faces a run: fewer take no longer than starting a thread
+constexpr Index kChunk = 1 << 14;  // vertices that are joined or labelled at a time
 
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -28,33 +33,102 @@ void join_run(Index run, Index run_count, const Mesh& mesh, Index* parent) noexc
   kernels::join_halfedges({side_count, mesh.halfedge_count()}, mesh, parent);
 }
 
-template <Topology Mesh>
-Buffer<Index> join_all(const Mesh& mesh, const Execution& execution) {
-  const Index run_count = par::share_count(execution, mesh.face_count(), kGrain);
-  std::vector<Buffer<Index>> trees;
-  for (Index i = 0; i < run_count; ++i) trees.emplace_back(at(mesh.vertex_count()));
-  par::for_each_task(execution, run_count, [&](Index run, Index) {
-    join_run(run, run_count, mesh, trees[at(run)].data());
-  });
-  for (Index step = 1; step < run_count; step *= 2) {
-    const Index pair_count = (run_count - step - 1) / (2 * step) + 1;
-    par::for_each_task(execution, pair_count, [&](Index pair, Index) {
-      const Index to = pair * 2 * step;
-      kernels::join_trees({0, mesh.vertex_count()}, trees[at(to + step)].data(),
-                          trees[at(to)].data());
-    });
+// One array of parents a run: the labels for the first, scratch for the others.
+class Trees {
+ public:
+  static std::size_t scratch_bytes(Index run_count, Index vertex_count) noexcept {
+    return at(run_count - 1) * row_bytes(vertex_count) + flag_count(run_count, vertex_count);
   }
-  return std::move(trees[0]);
-}
+
+  Trees(Index run_count, std::span<Index> labels, std::byte* scratch) noexcept
+      : run_count_(run_count),
+        vertex_count_(static_cast<Index>(labels.size())),
+        first_(labels.data()),
+        scratch_(scratch) {}
+
+  [[nodiscard]] Index* of(Index run) const noexcept {
+    if (run == 0) return first_;
+    return reinterpret_cast<Index*>(scratch_ + at(run - 1) * row_bytes(vertex_count_));
+  }
+  // Joins the trees of runs 2i and 2i + 1, then those of these pairs, and so on, into the first.
+  // Where runs are local they share few vertices: chunks in which both joined something are rare.
+  void join(const Execution& execution) const {
+    std::byte* is_left = scratch_ + at(run_count_ - 1) * row_bytes(vertex_count_);
+    const Index chunks = chunk_count(vertex_count_);
+    const auto vertices = [&](Index chunk) {
+      return IndexRange{chunk * kChunk, std::min(vertex_count_, (chunk + 1) * kChunk)};
+    };
+    for (Index step = 1; step < run_count_; step *= 2) {
+      const auto to = [&](Index pair) { return of(pair * 2 * step); };
+      const auto from = [&](Index pair) { return of(pair * 2 * step + step); };
+      const Index pair_count = (run_count_ - step - 1) / (2 * step) + 1;
+      par::for_each_task(execution, pair_count * chunks, [&](Index task, Index) {
+        const Index pair = task / chunks;
+        is_left[at(task)] =
+            std::byte{kernels::hang_roots(vertices(task % chunks), from(pair), to(pair))};
+      });
+      par::for_each_task(execution, pair_count, [&](Index pair, Index) {
+        for (Index chunk = 0; chunk < chunks; ++chunk) {
+          if (is_left[at(pair * chunks + chunk)] == std::byte{0}) continue;
+          kernels::join_trees(vertices(chunk), from(pair), to(pair));
+        }
+      });
+    }
+  }
+
+ private:
+  static constexpr std::size_t kCacheLine = 64;
+
+  static Index chunk_count(Index vertex_count) noexcept { return (vertex_count - 1) / kChunk + 1; }
+  static std::size_t row_bytes(Index vertex_count) noexcept {
+    return (at(vertex_count) * sizeof(Index) + kCacheLine - 1) / kCacheLine * kCacheLine;
+  }
+  static std::size_t flag_count(Index run_count, Index vertex_count) noexcept {
+    return at(run_count / 2) * at(chunk_count(vertex_count));
+  }
+
+  Index run_count_;
+  Index vertex_count_;
+  Index* first_;
+  std::byte* scratch_;
+};
 
 }  // namespace
 
-Components connected_components(const Connectivity& mesh, const Execution& execution) {
+Result<Index> connected_components(const Connectivity& mesh, std::span<Index> labels,
+                                   const Execution& execution, Workspace& workspace) {
+  if (labels.size() != at(mesh.vertex_count())) {
+    return fail({ErrorCode::count_mismatch, kInvalidIndex, static_cast<std::int64_t>(labels.size()),
+                 mesh.vertex_count()});
+  }
+  if (labels.empty()) return Index{0};
+  const Index run_count = par::share_count(execution, mesh.face_count(), kGrain);
+  const std::size_t bytes = Trees::scratch_bytes(run_count, mesh.vertex_count());
+  if (run_count > 1 && !workspace.reserve(bytes)) {
+    return fail({ErrorCode::scratch_too_small, kInvalidIndex,
+                 static_cast<std::int64_t>(workspace.size_bytes()),
+                 static_cast<std::int64_t>(bytes)});
+  }
+  const Trees trees(run_count, labels, workspace.data());
   return mesh.visit([&](const auto& view) {
-    Components components{join_all(view, execution), 0};
-    components.count = kernels::label_roots(view, components.label.data());
-    return components;
+    par::for_each_task(execution, run_count,
+                       [&](Index run, Index) { join_run(run, run_count, view, trees.of(run)); });
+    trees.join(execution);
+    return par::reduce<Index>(
+        execution, view.vertex_count(), kChunk,
+        [&](IndexRange range) { return kernels::label_roots(range, view, labels.data()); },
+        std::plus<>{});
   });
+}
+
+Components connected_components(const Connectivity& mesh, const Execution& execution) {
+  Components components{Buffer<Index>(at(mesh.vertex_count())), 0};
+  Workspace workspace;
+  const Result<Index> count =
+      connected_components(mesh, components.label.span(), execution, workspace);
+  HEDGEROW_ASSERT(count);
+  components.count = *count;
+  return components;
 }
 
 }  // namespace hedgerow

@@ -27,7 +27,9 @@ Patches find_patches(const Mesh& mesh, const RadialCycles& cycles, const Executi
                                cycles.column(), parent);
   });
   for (std::size_t i = 1; i < trees.size(); ++i) {
-    kernels::join_trees(faces, trees[i].data(), trees[0].data());
+    if (kernels::hang_roots(faces, trees[i].data(), trees[0].data())) {
+      kernels::join_trees(faces, trees[i].data(), trees[0].data());
+    }
   }
   Patches patches{std::move(trees[0]), 0};
   patches.count = kernels::flatten_trees(faces, patches.label.data());
