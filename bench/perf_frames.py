@@ -18,7 +18,7 @@ PARTS = {
     "terrain": STILL,
     "terrain-1": (*SOME, *PARALLEL, "--frames", "2000"),
     "terrain-1-double": (*SOME, *DOUBLE, "--frames", "2000"),
-    "terrain-100": (*ALL, "--frames", "300"),
+    "terrain-100": (*ALL, *PARALLEL, "--frames", "300"),
     "small-1": (*SMALL, *SOME, *PARALLEL, *LONG),
     "small-1-double": (*SMALL, *SOME, *DOUBLE, *LONG),
     "small-100": (*SMALL, *ALL, *PARALLEL, *LONG),
