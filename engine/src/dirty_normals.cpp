@@ -38,19 +38,67 @@ void for_each_moved(const MovedVertices& moved, const Visit& visit) {
   }
 }
 
+// Inserts the faces round each vertex. Several rings are walked at once, as each step waits for
+// memory: the rest of a frame has thrown the columns out of the caches.
+void insert_rings(const TriangleView& mesh, std::span<const Index> ids,
+                  kernels::IndexSet& faces) noexcept {
+  struct Walk {
+    Index start;
+    Index halfedge;
+  };
+  constexpr std::size_t kWalks = 8;
+  constexpr std::size_t kAhead = 32;
+  Walk walks[kWalks];
+  std::size_t count = 0;
+  const Index* outgoing = mesh.outgoing.data();
+  for (std::size_t next = 0; count > 0 || next < ids.size();) {
+    for (; count < kWalks && next < ids.size(); ++next) {
+      __builtin_prefetch(outgoing + ids[std::min(next + kAhead, ids.size() - 1)]);
+      const Index start = outgoing[ids[next]];
+      if (start >= 0) walks[count++] = {start, start};
+    }
+    for (std::size_t i = 0; i < count;) {
+      Walk& walk = walks[i];
+      faces.insert(mesh.face(HalfedgeId(walk.halfedge)).value);
+      const HalfedgeId opposite = mesh.opposite[HalfedgeId(walk.halfedge)];
+      walk.halfedge = opposite.valid() ? mesh.next(opposite).value : walk.start;
+      if (walk.halfedge == walk.start) {
+        walk = walks[--count];
+      } else {
+        ++i;
+      }
+    }
+  }
+  if (mesh.fans.empty()) return;
+  for (const Index v : ids) {
+    kernels::for_each_face(mesh, VertexId(v), [&](Index f) { faces.insert(f); });
+  }
+}
+
+template <class Mesh>
+void insert_rings(const Mesh& mesh, std::span<const Index> ids, kernels::IndexSet& faces) noexcept {
+  for (const Index v : ids) {
+    kernels::for_each_face(mesh, VertexId(v), [&](Index f) { faces.insert(f); });
+  }
+}
+
 // The vertices of all those faces.
 template <class Mesh>
 void insert_corners(const Mesh& mesh, std::span<const Index> faces,
                     kernels::IndexSet& vertices) noexcept {
-  for (const Index f : faces) {
-    const Index begin = mesh.first(FaceId(f)).value;
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Index far = faces[std::min(i + kAhead, faces.size() - 1)];
+    __builtin_prefetch(mesh.origin.data() + mesh.first(FaceId(far)).value);
+    const FaceId f(faces[i]);
+    const Index begin = mesh.first(f).value;
     const auto insert = [&](Index corner) {
       vertices.insert(mesh.origin[HalfedgeId(begin + corner)].value);
     };
     if constexpr (std::is_same_v<Mesh, TriangleView>) {
       for (const Index corner : {0, 1, 2}) insert(corner);
     } else {
-      for (Index corner = 0; corner < mesh.degree(FaceId(f)); ++corner) insert(corner);
+      for (Index corner = 0; corner < mesh.degree(f); ++corner) insert(corner);
     }
   }
 }
@@ -96,15 +144,17 @@ template <class Mesh>
 void DirtySet::collect(const Mesh& mesh, const MovedVertices& moved) {
   kernels::IndexSet face_set(face_bits_.data(), mesh.face_count());
   kernels::IndexSet vertex_set(vertex_bits_.data(), mesh.vertex_count());
-  const auto insert_faces = [&](Index v) {
+  insert_rings(mesh, moved.ids(), face_set);
+  const auto insert_ring = [&](Index, Index v) {
     kernels::for_each_face(mesh, VertexId(v), [&](Index f) { face_set.insert(f); });
   };
-  for_each_moved(moved, [&](Index, Index v) { insert_faces(v); });
+  for_each_moved(MovedVertices::range(moved.range()), insert_ring);
+  for_each_moved(MovedVertices::bitmap(moved.words()), insert_ring);
   face_count_ = face_set.drain_into(faces_.data());
   insert_corners(mesh, faces(), vertex_set);
   vertex_count_ = vertex_set.drain_into(vertices_.data());
   if (ring_faces_.empty()) return;
-  for (const Index v : vertices()) insert_faces(v);
+  insert_rings(mesh, vertices(), face_set);
   ring_face_count_ = face_set.drain_into(ring_faces_.data());
 }
 
@@ -130,6 +180,9 @@ Result<NormalStats> update_face_normals(const Connectivity& mesh, Positions posi
   const kernels::Points points{positions};
   const kernels::NormalWriter writer{out, options.degenerate};
   const std::span<const Index> faces = dirty.faces();
+  // A few hundred bytes of each frame's positions are far apart; asked for together, they come
+  // together.
+  for (const Index v : dirty.vertices()) __builtin_prefetch(positions[v]);
   return par::reduce<NormalStats>(
       execution, static_cast<Index>(faces.size()), kFaceGrain,
       [&](IndexRange range) {
