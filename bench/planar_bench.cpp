@@ -103,9 +103,9 @@ std::shared_ptr<Flips> make_flips(const Dataset& data) {
   for (HalfedgeId h(0); h.value < view.halfedge_count(); ++h.value) {
     if (h < view.opposite[h]) all.push_back(h);
   }
-  flips->edges = flips->mesh.flip_batch(all, Execution::serial()).flipped;
+  flips->edges = flips->mesh.flip_batch(all, Execution::serial()).done;
   // What may be flipped back may be flipped again.
-  flips->edges = flips->mesh.flip_batch(flips->edges, Execution::serial()).flipped;
+  flips->edges = flips->mesh.flip_batch(flips->edges, Execution::serial()).done;
   return flips;
 }
 
@@ -122,7 +122,7 @@ Work prepare_flips(const Dataset& data, const Execution& execution, bool is_batc
   work.run = [flips, execution, is_batch, done] {
     *done = 0;
     if (is_batch) {
-      *done = flips->mesh.flip_batch(flips->edges, execution).flipped.size();
+      *done = flips->mesh.flip_batch(flips->edges, execution).done.size();
     } else {
       for (const HalfedgeId h : flips->edges) *done += flips->mesh.flip(h) ? 1 : 0;
     }

@@ -68,8 +68,8 @@ Plain flip_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
 void expect_the_same(EditMesh& mesh, EditMesh& copy, const std::vector<HalfedgeId>& wanted,
                      const Execution& execution) {
   const Plain plain = flip_one_by_one(copy, wanted);
-  const FlipBatch batch = mesh.flip_batch(wanted, execution);
-  EXPECT_EQ(batch.flipped, plain.flipped);
+  const EditBatch batch = mesh.flip_batch(wanted, execution);
+  EXPECT_EQ(batch.done, plain.flipped);
   EXPECT_EQ(batch.refused, plain.refused);
   EXPECT_EQ(batch.rest, plain.rest);
   EXPECT_EQ(state_of(mesh), state_of(copy));
@@ -80,8 +80,8 @@ TEST(FlipBatch, PutsAnEdgeThatMeetsAnEarlierOneOff) {
   const HalfedgeId first = mesh.find(VertexId(2), VertexId(3));
   const HalfedgeId second = mesh.find(VertexId(3), VertexId(0));
   const HalfedgeId outside = mesh.find(VertexId(0), VertexId(2));
-  const FlipBatch batch = mesh.flip_batch(std::vector{first, outside, second}, Execution::serial());
-  EXPECT_EQ(batch.flipped, std::vector{first});
+  const EditBatch batch = mesh.flip_batch(std::vector{first, outside, second}, Execution::serial());
+  EXPECT_EQ(batch.done, std::vector{first});
   EXPECT_EQ(batch.rest, std::vector{second});
   EXPECT_EQ(batch.refused, std::vector{outside});
   EXPECT_EQ(find_fault(mesh), "");
@@ -93,8 +93,8 @@ TEST(FlipBatch, MakesAnEdgeOnce) {
   EditMesh mesh = edit_mesh(list);
   const HalfedgeId a = mesh.find(VertexId(0), VertexId(1));
   const HalfedgeId b = mesh.find(VertexId(2), VertexId(3));
-  const FlipBatch batch = mesh.flip_batch(std::vector{b, a}, Execution::serial());
-  EXPECT_EQ(batch.flipped, std::vector{b});
+  const EditBatch batch = mesh.flip_batch(std::vector{b, a}, Execution::serial());
+  EXPECT_EQ(batch.done, std::vector{b});
   EXPECT_EQ(batch.rest, std::vector{a});
   EXPECT_EQ(find_fault(mesh), "");
   EXPECT_EQ(mesh.flip_batch(batch.rest, Execution::serial()).refused, std::vector{a});
@@ -121,8 +121,8 @@ TEST(FlipBatch, IsTakenBackAndDoneAgainAsOneChange) {
   EditMesh mesh = edit_mesh(torus(6));
   EditMesh copy = edit_mesh(torus(6));
   const EditState before = state_of(mesh);
-  const FlipBatch batch = mesh.flip_batch(shuffled_edges(mesh, 3), Execution::serial());
-  ASSERT_GT(batch.flipped.size(), 5U);
+  const EditBatch batch = mesh.flip_batch(shuffled_edges(mesh, 3), Execution::serial());
+  ASSERT_GT(batch.done.size(), 5U);
   const Change change = *batch.change;
   ASSERT_TRUE(copy.replay(change));
   EXPECT_EQ(state_of(copy), state_of(mesh));

@@ -1,13 +1,10 @@
-// The parallel operations on plain threads. TBB itself is not built for the thread sanitizer, which
-// then reports races inside it; through the callback of an `Execution` it is not called at all, so
-// whatever the sanitizer reports here is ours.
+// The parallel operations on plain threads.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <random>
 #include <span>
-#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -25,27 +22,10 @@
 #include "hedgerow/split_edge.h"
 #include "hedgerow/triangulate.h"
 #include "hedgerow/validate.h"
+#include "support/plain_threads.h"
 
 namespace hedgerow {
 namespace {
-
-constexpr int kThreads = 4;
-
-// Thread t takes ranges t, t + kThreads, ...: neighbours always run on different threads.
-void run_on_threads(void*, Index count, Index grain, void (*body)(void*, Index, Index),
-                    void* user) {
-  std::array<std::thread, kThreads> threads;
-  for (Index t = 0; t < kThreads; ++t) {
-    threads[static_cast<std::size_t>(t)] = std::thread([=] {
-      for (Index begin = t * grain; begin < count; begin += kThreads * grain) {
-        body(user, begin, std::min(begin + grain, count));
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-}
-
-Execution plain_threads() { return Execution::callback(&run_on_threads, nullptr, kThreads); }
 
 struct Faces {
   std::vector<Index> corners;

@@ -9,7 +9,8 @@
 
 namespace {
 std::atomic<int> count = 0;
-}
+std::atomic<int> failing_count = -1;
+}  // namespace
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void* __real_aligned_alloc(std::size_t alignment, std::size_t bytes);
@@ -20,7 +21,7 @@ extern "C" void* __wrap_aligned_alloc(std::size_t alignment, std::size_t bytes) 
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* operator new(std::size_t bytes) {
-  ++count;
+  if (count++ == failing_count) throw std::bad_alloc();
   void* memory = std::malloc(bytes == 0 ? 1 : bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
@@ -35,5 +36,8 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace hedgerow::test {
 
 int allocation_count() noexcept { return count; }
+
+FailingAllocation::FailingAllocation(int after) noexcept { failing_count = count + after; }
+FailingAllocation::~FailingAllocation() { failing_count = -1; }
 
 }  // namespace hedgerow::test

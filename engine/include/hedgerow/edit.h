@@ -50,11 +50,11 @@ struct [[nodiscard]] EditCheck {
 using EditResult = tl::expected<const Change*, EditCheck>;
 
 /// What became of the edges of a batch, each list in the order in which they were given.
-struct FlipBatch {
-  const Change* change = nullptr;  ///< of all flips together, until the next edit
-  std::vector<HalfedgeId> flipped;
-  std::vector<HalfedgeId> rest;     ///< one before it has a face in common, or makes the same edge
-  std::vector<HalfedgeId> refused;  ///< `can_flip` says no
+struct EditBatch {
+  const Change* change = nullptr;  ///< of all edits together, until the next one
+  std::vector<HalfedgeId> done;
+  std::vector<HalfedgeId> rest;     ///< possible, but one before it that was done stands in the way
+  std::vector<HalfedgeId> refused;  ///< `can_...` says no
 };
 
 /// Old to new numbers of what `compact` kept; invalid for what is gone.
@@ -170,10 +170,19 @@ class EditMesh {
   /// Turns the edge of h by one corner in its two faces; in two triangles, to the other diagonal.
   [[nodiscard]] EditCheck can_flip(HalfedgeId h) const;
   EditResult flip(HalfedgeId h);
-  /// Flips those edges of `wanted` that do not meet, an earlier one before a later one; the rest is
-  /// for the next round. The same result for every execution. O(sum of valences + F / 64). Throws
-  /// std::bad_alloc, and has then changed nothing unless it records. \pre no edge is given twice
-  FlipBatch flip_batch(std::span<const HalfedgeId> wanted, const Execution& execution);
+
+  // A batch does those edges of `wanted` that do not meet, an earlier one before a later one; the
+  // rest is for the next round. What it does is the same, to the last byte, as those edits one
+  // after the other in their order, on every execution; with a record it is done like that. O(sum
+  // of valences and degrees, and a bit for each vertex, half-edge or face). Throws std::bad_alloc,
+  // and has then changed nothing.
+
+  /// Flips meet if they have a face in common, or make an edge between the same two vertices.
+  EditBatch flip_batch(std::span<const HalfedgeId> wanted, const Execution& execution);
+  /// Collapses meet if an end of one has a face or an edge in common with an end of the other.
+  EditBatch collapse_batch(std::span<const HalfedgeId> wanted, const Execution& execution);
+  /// Splits of edges meet if they have a triangle in common, or are of one edge.
+  EditBatch split_batch(std::span<const HalfedgeId> wanted, const Execution& execution);
 
   /// A vertex in the middle of the edge of h: both faces have one corner more. h ends there.
   [[nodiscard]] EditCheck can_insert_vertex(HalfedgeId h) const;
@@ -239,7 +248,6 @@ class EditMesh {
 
  private:
   friend class Edit;
-  friend class FlipBatcher;
 
   static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   static Index size(const std::vector<Index>& column) noexcept {

@@ -114,12 +114,12 @@ class DelaunayFlips {
       report_.is_cut_short = true;
     }
     if (edges.empty()) return false;
-    const FlipBatch batch = mesh_.flip_batch(edges, execution_);
+    const EditBatch batch = mesh_.flip_batch(edges, execution_);
     report_.postponed += static_cast<std::int64_t>(batch.rest.size());
-    count_flips(static_cast<std::int64_t>(batch.flipped.size()));
-    if (batch.flipped.empty()) return false;
+    count_flips(static_cast<std::int64_t>(batch.done.size()));
+    if (batch.done.empty()) return false;
     keep_record(*batch.change);
-    for (const HalfedgeId h : batch.flipped) push_round(h);
+    for (const HalfedgeId h : batch.done) push_round(h);
     for (const HalfedgeId h : batch.rest) push(h);
     // What stood in their way may be gone.
     for (const HalfedgeId h : batch.refused) push(h);

@@ -10,6 +10,19 @@
 
 namespace hedgerow {
 
+namespace {
+
+constexpr std::array kColumns = {EditColumn::origin,  EditColumn::opposite, EditColumn::next,
+                                 EditColumn::prev,    EditColumn::face,     EditColumn::outgoing,
+                                 EditColumn::is_gone, EditColumn::first};
+
+// The entry of an element of which nothing is known.
+constexpr Index none_of(EditColumn which) noexcept {
+  return which == EditColumn::is_gone ? 0 : kInvalidIndex;
+}
+
+}  // namespace
+
 Edit::Edit(EditMesh& mesh) noexcept : m_(mesh) {
   Change& change = m_.change_;
   change.writes.clear();
@@ -94,23 +107,35 @@ void Edit::remove(FaceId f) {
   note_death({Element::face, f.value});
 }
 
-void Edit::settle(VertexId v, HalfedgeId h) {
-  HalfedgeId g = h;
-  do {
-    if (!face(g).valid()) {
-      set_outgoing(v, g);
-      return;
-    }
-    g = clockwise(g);
-  } while (g != h);
-  set_outgoing(v, h);
+kernels::EditColumns Edit::columns(EditMesh& mesh) noexcept {
+  return {mesh.origin_.data(), mesh.opposite_.data(), mesh.next_.data(),    mesh.prev_.data(),
+          mesh.face_.data(),   mesh.outgoing_.data(), mesh.is_gone_.data(), mesh.first_.data()};
 }
 
-void Edit::settle_if_needed(VertexId v, HalfedgeId h) {
-  const HalfedgeId start = outgoing(v);
-  const bool leaves = start.valid() && m_.has(start) && origin(start) == v;
-  if (leaves && !face(start).valid()) return;
-  settle(v, leaves ? start : h);
+void Edit::make_room(EditMesh& mesh, Index vertices, Index halfedges, Index faces,
+                     std::size_t writes) {
+  const auto reserve = [](auto& list, std::size_t size) {
+    // As it would grow by itself: many small batches move it a few times only.
+    if (size > list.capacity()) list.reserve(std::max(size, 2 * list.size()));
+  };
+  const Index more[] = {vertices, halfedges, faces};
+  for (const EditColumn which : kColumns) {
+    std::vector<Index>& column = mesh.column(which);
+    const Index count = more[static_cast<std::size_t>(element_of(which))];
+    reserve(column, column.size() + static_cast<std::size_t>(count));
+  }
+  reserve(mesh.change_.writes, writes);
+  reserve(mesh.change_.births, writes);
+  reserve(mesh.change_.deaths, writes);
+}
+
+void Edit::grow(Index vertices, Index halfedges, Index faces) {
+  const Index more[] = {vertices, halfedges, faces};
+  for (const EditColumn which : kColumns) {
+    std::vector<Index>& column = m_.column(which);
+    const Index count = more[static_cast<std::size_t>(element_of(which))];
+    column.resize(column.size() + static_cast<std::size_t>(count), none_of(which));
+  }
 }
 
 // ---- tests
@@ -295,11 +320,6 @@ std::vector<Index> Change::changed(Element element) const {
 
 namespace {
 
-// The columns of one kind of element, to make longer and shorter.
-constexpr std::array kColumns = {EditColumn::origin,  EditColumn::opposite, EditColumn::next,
-                                 EditColumn::prev,    EditColumn::face,     EditColumn::outgoing,
-                                 EditColumn::is_gone, EditColumn::first};
-
 bool has_counts(const EditMesh& mesh, const Index (&counts)[3]) noexcept {
   return mesh.vertex_count() == counts[0] && mesh.halfedge_count() == counts[1] &&
          mesh.face_count() == counts[2];
@@ -338,9 +358,8 @@ EditCheck EditMesh::replay(const Change& change) {
     return {Refusal::other_state, kInvalidIndex};
   }
   for (const EditColumn which : kColumns) {
-    const Index none = which == EditColumn::is_gone ? 0 : kInvalidIndex;
     column(which).resize(at(change.counts_after[static_cast<std::size_t>(element_of(which))]),
-                         none);
+                         none_of(which));
   }
   for (std::size_t i = 0; i < change.writes.size(); ++i) {
     const Write& write = change.writes[i];

@@ -5,6 +5,7 @@
 #include "hedgerow/circulate.h"
 #include "hedgerow/edit.h"
 #include "kernels/flip_edges.h"
+#include "kernels/local_edits.h"
 
 namespace hedgerow {
 
@@ -57,12 +58,15 @@ class Edit {
   void flip(HalfedgeId h);
   /// For many at once, without a record.
   [[nodiscard]] kernels::Flip flip_of(HalfedgeId h) const noexcept;
-  [[nodiscard]] kernels::FlipColumns flip_columns() noexcept;
+  [[nodiscard]] static kernels::EditColumns columns(EditMesh& mesh) noexcept;
+  /// Room for so many more elements, and for records of `writes` changes; throws before any change.
+  static void make_room(EditMesh& mesh, Index vertices, Index halfedges, Index faces,
+                        std::size_t writes);
+  /// So many more elements, all of their entries to be filled.
+  void grow(Index vertices, Index halfedges, Index faces);
 
-  /// The vertex starts its rotation at `h`, or on the boundary if it has one (I6).
-  void settle(VertexId v, HalfedgeId h);
-  /// The same if it starts on the boundary no longer, or at a half-edge that is gone.
-  void settle_if_needed(VertexId v, HalfedgeId h);
+  void settle(VertexId v, HalfedgeId h) { kernels::settle(*this, v, h); }
+  void settle_if_needed(VertexId v, HalfedgeId h) { kernels::settle_if_needed(*this, v, h); }
 
   EditResult done();
 

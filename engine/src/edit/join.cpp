@@ -1,5 +1,6 @@
 // Edits that take an edge away: collapse, and joining two faces.
 #include "edit/edit.h"
+#include "kernels/scatter_edits.h"
 
 namespace hedgerow {
 
@@ -92,23 +93,6 @@ EditCheck test_triangles(const EditTest& test, HalfedgeId h) {
   return {};
 }
 
-// Sews the two sides of what is left of a triangle after its edge went: n and its next.
-void close_side(Edit& edit, HalfedgeId n) {
-  const HalfedgeId p = edit.next(n);
-  if (edit.next(p) != n) return;
-  const HalfedgeId beyond_n = edit.opposite(n);
-  const HalfedgeId beyond_p = edit.opposite(p);
-  const VertexId across = edit.origin(p);
-  const VertexId b = edit.origin(n);
-  const FaceId f = edit.face(n);
-  edit.pair(beyond_n, beyond_p);
-  edit.remove(n);
-  edit.remove(p);
-  edit.remove(f);
-  edit.settle_if_needed(across, beyond_n);
-  edit.settle_if_needed(b, beyond_p);
-}
-
 }  // namespace
 
 EditCheck EditMesh::can_collapse(HalfedgeId h) const {
@@ -150,31 +134,12 @@ EditCheck EditMesh::can_collapse(HalfedgeId h) const {
 EditResult EditMesh::collapse(HalfedgeId h) {
   if (const EditCheck possible = can_collapse(h); !possible) return tl::unexpected(possible);
   Edit edit(*this);
-  const HalfedgeId o = edit.opposite(h);
-  const HalfedgeId n = edit.next(h);
-  const HalfedgeId m = edit.next(o);
-  const VertexId a = edit.origin(h);
-  const VertexId b = edit.origin(o);
-  const FaceId f = edit.face(h);
-  const FaceId g = edit.face(o);
-  HalfedgeId k = h;
-  do {
-    const HalfedgeId after = edit.clockwise(k);
-    edit.set_origin(k, b);
-    k = after;
-  } while (k != h);
-  edit.link(edit.prev(h), n);
-  edit.link(edit.prev(o), m);
-  if (f.valid() && edit.first(f) == h) edit.set_first(f, n);
-  if (g.valid() && edit.first(g) == o) edit.set_first(g, m);
-  const HalfedgeId start = edit.outgoing(a);
-  edit.remove(h);
-  edit.remove(o);
-  edit.remove(a);
-  // The boundary of either is that of both.
-  edit.settle_if_needed(b, start != h && !edit.face(start).valid() ? start : n);
-  close_side(edit, n);
-  if (has(m)) close_side(edit, m);
+  const kernels::Collapse collapse = kernels::collapse_of(edit, h);
+  if (is_recording_) {
+    kernels::collapse_edge(edit, collapse);
+  } else {
+    kernels::scatter_collapses({0, 1}, &collapse, Edit::columns(*this));
+  }
   return edit.done();
 }
 

@@ -28,16 +28,11 @@ kernels::Flip Edit::flip_of(HalfedgeId h) const noexcept {
   return {h.value, outgoing(origin(h)) == h, outgoing(origin(o)) == o};
 }
 
-kernels::FlipColumns Edit::flip_columns() noexcept {
-  return {m_.origin_.data(),   m_.next_.data(),  m_.prev_.data(),    m_.face_.data(),
-          m_.outgoing_.data(), m_.first_.data(), m_.opposite_.data()};
-}
-
 void Edit::flip(HalfedgeId h) {
   if (!m_.is_recording_) {
     // Half of the time is that of choosing the column for each entry.
     const kernels::Flip one = flip_of(h);
-    kernels::scatter_flips({0, 1}, &one, flip_columns());
+    kernels::scatter_flips({0, 1}, &one, columns(m_));
     return;
   }
   const HalfedgeId o = opposite(h);
@@ -76,46 +71,6 @@ EditResult EditMesh::flip(HalfedgeId h) {
 
 // ---- splits
 
-namespace {
-
-// A vertex on the edge of h, which ends there. Returns the half-edge that goes on from it.
-HalfedgeId insert(Edit& edit, HalfedgeId h) {
-  const HalfedgeId o = edit.opposite(h);
-  const VertexId v = edit.add_vertex(edit.origin(h), edit.origin(o));
-  const HalfedgeId on = edit.add_halfedge(v, edit.face(h), h);
-  const HalfedgeId back = edit.add_halfedge(v, edit.face(o), o);
-  const HalfedgeId n = edit.next(h);
-  const HalfedgeId m = edit.next(o);
-  edit.link(on, n);
-  edit.link(back, m);
-  edit.link(h, on);
-  edit.link(o, back);
-  edit.pair(h, back);
-  edit.pair(on, o);
-  edit.set_outgoing(v, edit.face(on).valid() && !edit.face(back).valid() ? back : on);
-  return on;
-}
-
-// An edge between the origins of h and g, which are in one face: that keeps what follows h.
-void cut_face(Edit& edit, HalfedgeId h, HalfedgeId g) {
-  const FaceId f = edit.face(h);
-  const HalfedgeId before_h = edit.prev(h);
-  const HalfedgeId before_g = edit.prev(g);
-  const HalfedgeId there = edit.add_halfedge(edit.origin(h), f);
-  const HalfedgeId back = edit.add_halfedge(edit.origin(g), f);
-  edit.pair(there, back);
-  edit.link(before_g, back);
-  edit.link(back, h);
-  edit.link(before_h, there);
-  edit.link(there, g);
-  const FaceId cut_off = edit.add_face(g, f);
-  edit.give(there, before_h, cut_off);
-  edit.set_face(before_h, cut_off);
-  if (edit.face(edit.first(f)) != f) edit.set_first(f, h);
-}
-
-}  // namespace
-
 EditCheck EditMesh::can_insert_vertex(HalfedgeId h) const {
   const EditTest test(*this);
   if (const EditCheck exists = test.has(h); !exists) return exists;
@@ -125,7 +80,7 @@ EditCheck EditMesh::can_insert_vertex(HalfedgeId h) const {
 EditResult EditMesh::insert_vertex(HalfedgeId h) {
   if (const EditCheck possible = can_insert_vertex(h); !possible) return tl::unexpected(possible);
   Edit edit(*this);
-  insert(edit, h);
+  kernels::insert_vertex(edit, h);
   return edit.done();
 }
 
@@ -145,14 +100,8 @@ EditCheck EditMesh::can_split_edge(HalfedgeId h) const {
 
 EditResult EditMesh::split_edge(HalfedgeId h) {
   if (const EditCheck possible = can_split_edge(h); !possible) return tl::unexpected(possible);
-  const EditTest test(*this);
-  const HalfedgeId o = test.view().opposite[h];
-  const bool cuts_left = test.view().face(h).valid() && test.is_triangle(h);
-  const bool cuts_right = test.view().face(o).valid() && test.is_triangle(o);
   Edit edit(*this);
-  const HalfedgeId on = insert(edit, h);
-  if (cuts_left) cut_face(edit, on, edit.prev(h));
-  if (cuts_right) cut_face(edit, edit.opposite(h), edit.prev(o));
+  kernels::split_edge(edit, kernels::split_of(edit, h));
   return edit.done();
 }
 
@@ -208,7 +157,7 @@ EditCheck EditMesh::can_connect(HalfedgeId h, HalfedgeId g) const {
 EditResult EditMesh::connect(HalfedgeId h, HalfedgeId g) {
   if (const EditCheck possible = can_connect(h, g); !possible) return tl::unexpected(possible);
   Edit edit(*this);
-  cut_face(edit, h, g);
+  kernels::cut_face(edit, h, g);
   return edit.done();
 }
 

@@ -3,14 +3,14 @@
 namespace hedgerow::kernels {
 namespace {
 
-void link(Index h, Index g, const FlipColumns& columns) noexcept {
+void link(Index h, Index g, const EditColumns& columns) noexcept {
   columns.next[h] = g;
   columns.prev[g] = h;
 }
 
 }  // namespace
 
-void scatter_flips(IndexRange range, const Flip* flips, const FlipColumns& columns) noexcept {
+void scatter_flips(IndexRange range, const Flip* flips, const EditColumns& columns) noexcept {
   for (Index i = range.begin; i < range.end; ++i) {
     const Index h = flips[i].halfedge;
     const Index o = columns.opposite[h];

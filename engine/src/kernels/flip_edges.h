@@ -1,20 +1,9 @@
 #pragma once
 
-#include "hedgerow/index.h"
+#include "kernels/edit_columns.h"
 
 /// Flips of many edges at once.
 namespace hedgerow::kernels {
-
-/// The columns of a mesh in the closed form; `first` has one entry for each face.
-struct FlipColumns {
-  Index* origin;
-  Index* next;
-  Index* prev;
-  Index* face;
-  Index* outgoing;
-  Index* first;
-  const Index* opposite;
-};
 
 /// An edge to flip, and what depends on columns that other flips write.
 struct Flip {
@@ -29,6 +18,6 @@ struct Flip {
 /// \pre no two flips have a face in common; each can be done. Then ranges that partition the flips
 /// write disjoint elements: half-edges and faces are those of its two faces, and `outgoing` of a
 /// vertex is written only by the flip of the half-edge that stands there.
-void scatter_flips(IndexRange range, const Flip* flips, const FlipColumns& columns) noexcept;
+void scatter_flips(IndexRange range, const Flip* flips, const EditColumns& columns) noexcept;
 
 }  // namespace hedgerow::kernels
