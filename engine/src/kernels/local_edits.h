@@ -32,21 +32,31 @@ void settle_if_needed(Edit& edit, VertexId v, HalfedgeId h) {
 /// A half-edge whose origin moves into its target, and what depends on entries that collapses
 /// beside it may write.
 struct Collapse {
+  struct Side {
+    bool is_triangle;  ///< which goes
+    bool starts;       ///< its half-edge that ends at this one is the `outgoing` of its origin
+  };
   HalfedgeId halfedge;
-  bool starts_left;   ///< the half-edge before it is the `outgoing` of its origin,
-  bool starts_right;  ///< and that before its opposite likewise
+  Side left;
+  Side right;
 };
 template <class Edit>
+[[nodiscard]] bool is_triangle(const Edit& edit, HalfedgeId h) noexcept {
+  return edit.face(h).valid() && edit.next(edit.next(edit.next(h))) == h;
+}
+template <class Edit>
 [[nodiscard]] Collapse collapse_of(const Edit& edit, HalfedgeId h) noexcept {
-  const auto starts = [&](HalfedgeId p) { return edit.outgoing(edit.origin(p)) == p; };
-  return {h, starts(edit.prev(h)), starts(edit.prev(edit.opposite(h)))};
+  const auto side = [&](HalfedgeId g) -> Collapse::Side {
+    const HalfedgeId p = edit.prev(g);
+    return {is_triangle(edit, g), edit.outgoing(edit.origin(p)) == p};
+  };
+  return {h, side(h), side(edit.opposite(h))};
 }
 
 // Sews the two sides of what is left of a triangle after its edge went: n and its next.
 template <class Edit>
 void close_side(Edit& edit, HalfedgeId n, bool starts_across) {
   const HalfedgeId p = edit.next(n);
-  if (edit.next(p) != n) return;
   const HalfedgeId beyond_n = edit.opposite(n);
   const HalfedgeId beyond_p = edit.opposite(p);
   const VertexId across = edit.origin(p);
@@ -89,8 +99,8 @@ void collapse_edge(Edit& edit, const Collapse& collapse) {
   edit.remove(a);
   // The boundary of either is that of both.
   settle_if_needed(edit, b, brings_boundary ? start : n);
-  close_side(edit, n, collapse.starts_left);
-  if (edit.next(m).valid()) close_side(edit, m, collapse.starts_right);
+  if (collapse.left.is_triangle) close_side(edit, n, collapse.left.starts);
+  if (collapse.right.is_triangle) close_side(edit, m, collapse.right.starts);
 }
 
 /// A vertex on the edge of h, which ends there. Returns the half-edge that goes on from it.
@@ -146,10 +156,7 @@ struct Split {
 };
 template <class Edit>
 [[nodiscard]] Split split_of(const Edit& edit, HalfedgeId h) noexcept {
-  const auto is_cut = [&](HalfedgeId g) {
-    return edit.face(g).valid() && edit.next(edit.next(edit.next(g))) == g;
-  };
-  return {h, is_cut(h), is_cut(edit.opposite(h))};
+  return {h, is_triangle(edit, h), is_triangle(edit, edit.opposite(h))};
 }
 
 /// A vertex on an edge, joined to the one across in each triangle. \pre EditMesh::can_split_edge
