@@ -15,7 +15,7 @@ std::atomic<int> failing_count = -1;
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void* __real_aligned_alloc(std::size_t alignment, std::size_t bytes);
 extern "C" void* __wrap_aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++count;
+  if (count++ == failing_count) return nullptr;
   return __real_aligned_alloc(alignment, bytes);
 }
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)

@@ -6,7 +6,7 @@ namespace hedgerow::test {
 /// engine's buffers use. Every thread counts.
 [[nodiscard]] int allocation_count() noexcept;
 
-/// As long as it lives, an operator new throws std::bad_alloc after so many that do not.
+/// As long as it lives, an allocation fails after so many that do not.
 class FailingAllocation {
  public:
   explicit FailingAllocation(int after) noexcept;

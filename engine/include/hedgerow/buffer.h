@@ -89,4 +89,20 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
+/// The same memory for a `std::vector`, where a column has to grow.
+template <class T>
+struct BufferAllocator {
+  using value_type = T;
+
+  BufferAllocator() noexcept = default;
+  template <class U>
+  explicit BufferAllocator(const BufferAllocator<U>&) noexcept {}
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    return static_cast<T*>(detail::allocate_bytes(count * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t) noexcept { detail::free_bytes(memory); }
+  friend bool operator==(const BufferAllocator&, const BufferAllocator&) noexcept { return true; }
+};
+
 }  // namespace hedgerow

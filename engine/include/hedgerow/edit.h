@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "hedgerow/buffer.h"
 #include "hedgerow/change.h"
 #include "hedgerow/connectivity.h"
 #include "hedgerow/execution.h"
@@ -249,23 +250,26 @@ class EditMesh {
  private:
   friend class Edit;
 
+  /// Grows, in huge pages where the system has them: edits hop through it.
+  using EditedColumn = std::vector<Index, BufferAllocator<Index>>;
+
   static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-  static Index size(const std::vector<Index>& column) noexcept {
+  static Index size(const EditedColumn& column) noexcept {
     return static_cast<Index>(column.size());
   }
-  static bool is_index(Index i, const std::vector<Index>& column) noexcept {
+  static bool is_index(Index i, const EditedColumn& column) noexcept {
     return i >= 0 && i < size(column);
   }
-  [[nodiscard]] std::vector<Index>& column(EditColumn which) noexcept;
+  [[nodiscard]] EditedColumn& column(EditColumn which) noexcept;
 
-  std::vector<Index> origin_;
-  std::vector<Index> opposite_;
-  std::vector<Index> next_;  // -1: removed
-  std::vector<Index> prev_;
-  std::vector<Index> face_;
-  std::vector<Index> outgoing_;
-  std::vector<Index> is_gone_;  // of a vertex; one without edges has no other mark
-  std::vector<Index> first_;    // -1: removed
+  EditedColumn origin_;
+  EditedColumn opposite_;
+  EditedColumn next_;  // -1: removed
+  EditedColumn prev_;
+  EditedColumn face_;
+  EditedColumn outgoing_;
+  EditedColumn is_gone_;  // of a vertex; one without edges has no other mark
+  EditedColumn first_;    // -1: removed
   std::vector<FanStart> fans_;
   Form form_ = Form::open;  // to go back to
   bool is_recording_ = true;

@@ -120,7 +120,7 @@ void Edit::make_room(EditMesh& mesh, Index vertices, Index halfedges, Index face
   };
   const Index more[] = {vertices, halfedges, faces};
   for (const EditColumn which : kColumns) {
-    std::vector<Index>& column = mesh.column(which);
+    auto& column = mesh.column(which);
     const Index count = more[static_cast<std::size_t>(element_of(which))];
     reserve(column, column.size() + static_cast<std::size_t>(count));
   }
@@ -132,7 +132,7 @@ void Edit::make_room(EditMesh& mesh, Index vertices, Index halfedges, Index face
 void Edit::grow(Index vertices, Index halfedges, Index faces) {
   const Index more[] = {vertices, halfedges, faces};
   for (const EditColumn which : kColumns) {
-    std::vector<Index>& column = m_.column(which);
+    auto& column = m_.column(which);
     const Index count = more[static_cast<std::size_t>(element_of(which))];
     column.resize(column.size() + static_cast<std::size_t>(count), none_of(which));
   }
@@ -207,9 +207,9 @@ constexpr const char* kRefusalNames[] = {
     "several-fans", "too-few-corners", "not-a-path",     "too-many",       "other-state"};
 static_assert(std::size(kRefusalNames) == static_cast<std::size_t>(Refusal::other_state) + 1);
 
-template <class Column>
-std::vector<Index> copy_of(const Column& column) {
-  return {column.data(), column.data() + column.size()};
+template <class Column, class To>
+void copy(const Column& column, To& to) {
+  to.assign(column.data(), column.data() + column.size());
 }
 
 }  // namespace
@@ -229,11 +229,11 @@ Result<EditMesh> EditMesh::of(const Connectivity& mesh, const Execution& executi
   const PolygonView view = mesh.polygons();
   EditMesh made;
   made.form_ = Form::closed;
-  made.origin_ = copy_of(view.origin);
-  made.opposite_ = copy_of(view.opposite);
-  made.next_ = copy_of(view.next_of);
-  made.face_ = copy_of(view.face_of);
-  made.outgoing_ = copy_of(view.outgoing);
+  copy(view.origin, made.origin_);
+  copy(view.opposite, made.opposite_);
+  copy(view.next_of, made.next_);
+  copy(view.face_of, made.face_);
+  copy(view.outgoing, made.outgoing_);
   made.first_.assign(view.first_of.data(), view.first_of.data() + view.face_count());
   made.fans_.assign(view.fans.begin(), view.fans.end());
   made.is_gone_.assign(made.outgoing_.size(), 0);
@@ -242,7 +242,7 @@ Result<EditMesh> EditMesh::of(const Connectivity& mesh, const Execution& executi
   return made;
 }
 
-std::vector<Index>& EditMesh::column(EditColumn which) noexcept {
+EditMesh::EditedColumn& EditMesh::column(EditColumn which) noexcept {
   switch (which) {
     case EditColumn::origin:
       return origin_;
