@@ -327,14 +327,19 @@ class Decimate(ProgramTest):
     def test_a_torus_keeps_its_hole(self):
         self.done("generate", "torus", self.path("a.ply"), "--size", "3000")
         out = self.path("b.obj")
-        report = self.json("decimate", self.path("a.ply"), out, "--faces", "500")
-        self.assertEqual((report["faces"], report["ended_by"]), (500, "faces"))
-        self.assertIn(report["after"]["faces"], (499, 500))
-        self.assertEqual(report["before"]["vertices"] - report["collapses"],
-                         report["after"]["vertices"])
-        found = self.json("inspect", out)
-        self.assertEqual((found["genus"], found["manifold"], found["faces"]),
-                         (1, True, report["after"]["faces"]))
+        for order in ("queue", "rounds"):
+            report = self.json("decimate", self.path("a.ply"), out, "--faces", "500", "--order",
+                               order)
+            self.assertEqual((report["faces"], report["ended_by"], report["order"]),
+                             (500, "faces", order))
+            self.assertIn(report["after"]["faces"], (499, 500))
+            self.assertEqual(report["before"]["vertices"] - report["collapses"],
+                             report["after"]["vertices"])
+            self.assertEqual(report["rounds"] > 0, order == "rounds")
+            self.assertLessEqual(report["accepted"], report["candidates"])
+            found = self.json("inspect", out)
+            self.assertEqual((found["genus"], found["manifold"], found["faces"]),
+                             (1, True, report["after"]["faces"]))
 
     def test_what_cannot_be_reached_is_said(self):
         mesh = self.file("a.obj", cli.TETRAHEDRON)
@@ -345,7 +350,7 @@ class Decimate(ProgramTest):
 
     def test_wrong_numbers_are_usage(self):
         mesh = self.file("a.obj", cli.TETRAHEDRON)
-        for arguments in ((), ("--faces",), ("--faces", "-3"), ("--faces", "many"),
+        for arguments in ((), ("--faces",), ("--faces", "9", "--order", "any"), ("--faces", "-3"), ("--faces", "many"),
                           ("--faces", "1e99")):
             self.fails(2, "decimate", mesh, self.path("b.ply"), *arguments)
         self.assertFalse(os.path.exists(self.path("b.ply")))

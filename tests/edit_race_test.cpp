@@ -1,4 +1,5 @@
-// Batches of edits on plain threads.
+// Batches of edits, and decimation in rounds, on plain threads.
+#include <algorithm>
 #include <initializer_list>
 #include <random>
 #include <span>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "hedgerow/build.h"
+#include "hedgerow/decimate.h"
 #include "hedgerow/edit.h"
 #include "support/edit_soundness.h"
 #include "support/plain_threads.h"
@@ -71,6 +73,29 @@ TEST(EditRaces, CollapsesAndSplitsAsOneThreadDoes) {
     EXPECT_EQ(after_rounds(mesh, batch, Execution::serial()),
               after_rounds(mesh, batch, plain_threads().with_grain(7)));
   }
+}
+
+TEST(EditRaces, DecimatesAsOneThreadDoes) {
+  const Connectivity mesh = patch(100);
+  std::mt19937 random(5);
+  std::vector<float> xyz;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    for (const Index i : {v % 101, v / 101}) xyz.push_back(static_cast<float>(i));
+    xyz.push_back(static_cast<float>(random() % 64) / 64);
+  }
+  DecimateOptions options;
+  options.faces = mesh.face_count() / 4;
+  options.order = DecimateOrder::rounds;
+  options.part_vertices = 300;
+  const auto decimated = [&](const Execution& execution) {
+    return std::move(*decimate(mesh, {xyz.data(), mesh.vertex_count()}, options, execution));
+  };
+  const DecimateOutput serial = decimated(Execution::serial());
+  const DecimateOutput shared = decimated(plain_threads().with_grain(500));
+  EXPECT_GT(serial.accepted, 1000);
+  EXPECT_EQ(shared.accepted, serial.accepted);
+  EXPECT_TRUE(std::ranges::equal(shared.positions, serial.positions));
+  EXPECT_TRUE(std::ranges::equal(shared.maps.halfedges, serial.maps.halfedges));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Arguments {
   std::string input;
   std::string output;
   std::int64_t faces = 0;
+  std::string order = "queue";
 };
 
 const char* end_name(DecimateEnd end) { return end == DecimateEnd::faces ? "faces" : "refused"; }
@@ -28,6 +29,10 @@ std::string report_text(const Run& run, const Arguments& arguments, const Connec
   std::string text = fmt::format("{}\n{}: {} collapses in {}\n",
                                  before_after_text(before, output.mesh, run.colour()),
                                  arguments.output, output.collapses, time_text(ms));
+  if (output.rounds > 0) {
+    text += fmt::format("{} of {} candidates of {} rounds accepted\n", output.accepted,
+                        output.candidates, output.rounds);
+  }
   if (output.end == DecimateEnd::refused) {
     text += fmt::format(
         "{} faces were asked for; no other edge can be collapsed without a face "
@@ -43,8 +48,11 @@ ExitStatus decimate_file(Run& run, const Arguments& arguments) {
   const OpenedMesh opened = open_mesh(run, arguments.input);
   run.progress().step("decimating");
   const Clock clock;
+  DecimateOptions options;
+  options.faces = arguments.faces;
+  options.order = arguments.order == "rounds" ? DecimateOrder::rounds : DecimateOrder::queue;
   Result<DecimateOutput> output =
-      decimate(opened.mesh(), opened.kept.positions(), {.faces = arguments.faces}, run.execution());
+      decimate(opened.mesh(), opened.kept.positions(), options, run.execution());
   const double ms = clock.ms();
   if (!output) throw describe(output.error(), arguments.input);
   run.progress().step("writing");
@@ -60,8 +68,14 @@ ExitStatus decimate_file(Run& run, const Arguments& arguments) {
   json["faces"] = arguments.faces;
   json["before"] = counts_json(opened.mesh());
   json["after"] = counts_json(output->mesh);
+  json["order"] = arguments.order;
   json["collapses"] = output->collapses;
+  json["rounds"] = output->rounds;
+  json["candidates"] = output->candidates;
+  json["accepted"] = output->accepted;
+  json["postponed"] = output->postponed;
   json["largest_cost"] = output->largest_cost;
+  json["total_cost"] = output->total_cost;
   json["ended_by"] = end_name(output->end);
   json["timings_ms"] = {
       {"read", opened.file.read_ms}, {"build", opened.built.build_ms}, {"decimate", ms}};
@@ -81,7 +95,9 @@ void add_decimate(Program& program) {
       [arguments](Run& run) { return decimate_file(run, *arguments); });
   command.word("IN", arguments->input, "Mesh to read")
       .word("OUT", arguments->output, "Mesh to write")
-      .needed_number("--faces", {0}, arguments->faces, "How many are to be left, or fewer by one");
+      .needed_number("--faces", {0}, arguments->faces, "How many are to be left, or fewer by one")
+      .choice("--order", {"queue", "rounds"}, arguments->order,
+              "One by one, or in parts of the mesh at once");
 }
 
 }  // namespace hedgerow::tool

@@ -14,7 +14,13 @@ namespace hedgerow::decimation {
 /// cache lines as it has levels, and hides what comes next, this appends; and what comes next can
 /// be fetched meanwhile.
 class CostBuckets {
+  static constexpr int kMantissaBits = 23;
+  static constexpr int kStepBits = 4;  // sixteen steps from one power of two to the next
+
  public:
+  /// Buckets of all finite floats.
+  static constexpr std::size_t kCount = std::size_t{255} << kStepBits;
+
   CostBuckets() : buckets_(kCount) {}
 
   /// \pre cost is finite and not negative
@@ -46,10 +52,6 @@ class CostBuckets {
   }
 
  private:
-  static constexpr int kMantissaBits = 23;
-  static constexpr int kStepBits = 4;  // sixteen steps from one power of two to the next
-  static constexpr std::size_t kCount = std::size_t{255} << kStepBits;  // of all finite floats
-
   std::vector<std::vector<Index>> buckets_;
   std::size_t current_ = 0;
   std::size_t position_ = 0;

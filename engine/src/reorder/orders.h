@@ -14,6 +14,12 @@ namespace hedgerow::detail {
 [[nodiscard]] Buffer<Index> morton_vertices(const Positions& positions, Index vertex_count,
                                             const Execution& execution);
 
+/// Vertices by cells along a Z-order curve, 2^11 along the longest side of their box, those in one
+/// cell in old order: half of the time where it need not be exact. The curve fills a box that
+/// begins so many longest sides lower as `shift` says, so that it turns elsewhere.
+[[nodiscard]] Buffer<Index> vertices_by_cells(const Positions& positions, Index vertex_count,
+                                              const Execution& execution, float shift);
+
 /// Vertices by breadth-first search over edges, components by their smallest vertex, isolated
 /// vertices last.
 [[nodiscard]] Buffer<Index> breadth_first_vertices(const Connectivity& mesh);
