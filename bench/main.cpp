@@ -79,6 +79,7 @@ void add_all(const Plan& plan) {
   add_validate(plan);
   add_reorder(plan);
   add_planar(plan);
+  add_decimate(plan);
   add_representations(plan);
 }
 

@@ -1,4 +1,4 @@
-"""The tables of triangulations, cells and flips, which are measured by themselves."""
+"""The tables of triangulations, cells, flips and decimation, which are measured by themselves."""
 
 from perf_format import markdown, number, percent
 from perf_results import FOLDER
@@ -6,11 +6,11 @@ from perf_tables import targets_table
 from perf_targets import SERIAL, Target, name, times_faster
 
 PLANAR = FOLDER / "results" / "planar.json"
-PATTERN = "^(triangulate|voronoi|flip|delaunay)/"
+PATTERN = "^(triangulate|voronoi|flip|delaunay|decimate)/"
 MILLION, IN_CACHE = "points/2M", "points/20k"  # by triangles: a million points, ten thousand
 # What each operation is counted by.
 ELEMENTS = {"triangulate": "points", "voronoi": "points", "flip": "flips",
-            "delaunay": "flips"}
+            "delaunay": "flips", "decimate": "collapses"}
 
 
 def rate(element, *row_name):
@@ -21,9 +21,12 @@ def rate(element, *row_name):
     return value
 
 
-def accepted(results, _counts):
-    row = results.get(name("delaunay", "terrain/2M", SERIAL))
-    return row["accepted_percent"] if row else None
+def accepted(*row_name):
+    """Percent of the candidates of parallel rounds."""
+    def value(results, _counts):
+        row = results.get(name(*row_name))
+        return row["accepted_percent"] if row else None
+    return value
 
 
 PLANAR_TARGETS = (
@@ -34,7 +37,16 @@ PLANAR_TARGETS = (
     Target("flips, in cache, 1 thread", rate("flips", "flip", IN_CACHE, SERIAL), 10, 30, "M flips/s"),
     Target("flips in batches, in cache, 1 thread",
            rate("flips", "flip", IN_CACHE, SERIAL, "batch"), 10, 30, "M flips/s"),
-    Target("parallel rounds on a terrain, candidates accepted", accepted, 90, None, "%"),
+    Target("parallel rounds on a terrain, candidates accepted",
+           accepted("delaunay", "terrain/2M", SERIAL), 90, None, "%"),
+    Target("quadric collapses, in cache, 1 thread",
+           rate("collapses", "decimate", "terrain/20k", SERIAL, "queue"), 0.7, 3, "M collapses/s"),
+    Target("the same in rounds",
+           rate("collapses", "decimate", "terrain/20k", SERIAL, "rounds"), 0.7, 3, "M collapses/s"),
+    Target("quadric collapses, 1M faces, 1 thread, in rounds",
+           rate("collapses", "decimate", "terrain/1M", SERIAL, "rounds"), 0.7, 3, "M collapses/s"),
+    Target("the same, candidates accepted",
+           accepted("decimate", "terrain/1M", SERIAL, "rounds"), 90, None, "%"),
 )
 
 

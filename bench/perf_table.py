@@ -7,7 +7,7 @@
   perf_table.py --representations PROG [--rounds 3]
       the same for what all representations are asked: bench/results/representations.json
   perf_table.py --planar PROG [--rounds 5]
-      the same for triangulations and flips: bench/results/planar.json
+      the same for triangulations, flips and decimation: bench/results/planar.json
   perf_table.py --frames build/release/bench/hedgerow_frames [--part NAME]... [--mesh DRAGON]
       the same for frames of a ray tracer: bench/results/frames.json, of which each part takes up
       to three minutes; without --part all that need no mesh, or with --mesh all that do

@@ -92,7 +92,7 @@ struct Plan {
   std::vector<DatasetKey> large;        ///< variants and whole-mesh operations as well
   std::vector<DatasetKey> disordered;   ///< the two strategies of the builder, and nothing else
   std::vector<DatasetKey> represented;  ///< every representation, and nothing else
-  std::vector<DatasetKey> planar;       ///< triangulations, cells and flips, and nothing else
+  std::vector<DatasetKey> planar;       ///< triangulations, cells, flips and decimation, no other
   std::vector<int> threads;
   bool is_smoke = false;  ///< tiny meshes, one iteration each
 
@@ -118,6 +118,7 @@ void add_boundary(const Plan& plan);
 void add_buffer(const Plan& plan);
 void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
+void add_decimate(const Plan& plan);
 void add_dirty(const Plan& plan);
 void add_normals(const Plan& plan);
 void add_planar(const Plan& plan);
