@@ -135,6 +135,36 @@ TEST(DecimateRounds, StopWhereItCostsTooMuch) {
   EXPECT_EQ(decimated(mesh, soup.positions(), options).collapses, 0);
 }
 
+// Each new number is of one old element, in the old order; and a half-edge stays in its face.
+template <class Id>
+void expect_all_once(const std::vector<Id>& map, Index count, bool is_ascending) {
+  std::vector<Index> found;
+  for (const Id id : map) {
+    if (id.valid()) found.push_back(id.value);
+  }
+  if (!is_ascending) std::sort(found.begin(), found.end());
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], static_cast<Index>(i));
+}
+TEST(DecimateRounds, SayWhereEverythingWent) {
+  const Soup soup = *shapes::torus(60, 40);
+  const Connectivity mesh = mesh_of(soup);
+  const DecimateOutput output =
+      decimated(mesh, soup.positions(), rounds(mesh.face_count() / 20, 300));
+  const CompactMaps& maps = output.maps;
+  ASSERT_EQ(maps.vertices.size(), static_cast<std::size_t>(mesh.vertex_count()));
+  ASSERT_EQ(maps.halfedges.size(), static_cast<std::size_t>(mesh.halfedge_count()));
+  ASSERT_EQ(maps.faces.size(), static_cast<std::size_t>(mesh.face_count()));
+  expect_all_once(maps.vertices, output.mesh.vertex_count(), true);
+  expect_all_once(maps.halfedges, output.mesh.halfedge_count(), false);
+  expect_all_once(maps.faces, output.mesh.face_count(), true);
+  for (std::size_t h = 0; h < maps.halfedges.size(); ++h) {
+    if (maps.halfedges[h].valid()) {
+      EXPECT_EQ(maps.halfedges[h].value / 3, maps.faces[h / 3].value);
+    }
+  }
+}
+
 TEST(DecimateRounds, EndAtWhatCannotBeCollapsed) {
   const auto built = build_plain(tetrahedron());
   const std::vector<float> xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -70,7 +70,7 @@ struct DecimateOutput {
 ///            from each face of its edge, and a triangle away.
 /// Not finite Positions that are not finite give costs that are not: such edges stay.
 /// Complexity O(E) places in the queue and evaluations, if valences stay small. Scratch: 104 bytes
-///            a vertex and 12 an edge, besides an `EditMesh`; for rounds 16 and 8 more.
+///            a vertex and 12 an edge, besides an `EditMesh`; for rounds 48 and 36 more.
 /// Errors     count_mismatch: too few positions; bad_stride; null_pointer; those of `EditMesh::of`
 ///            and `compact`. Throws std::bad_alloc.
 /// Threads    Costs at the start, and rounds, on those of `execution`, the rest on the calling one;

@@ -196,6 +196,7 @@ class Rounds {
       ++output_.rounds;
       const std::int64_t collapses = output_.accepted - collapses_before;
       if (kFew * collapses < wanted_before) break;
+      if (2 * (vertex_count_ - output_.collapses) < mesh_.view().vertex_count()) pack();
       yield = std::clamp(static_cast<double>(collapses) / static_cast<double>(edge_count),
                          kLeastYield, kAim);
     }
@@ -205,6 +206,19 @@ class Rounds {
  private:
   // None of them takes more than two faces away.
   [[nodiscard]] std::int64_t wanted() const noexcept { return (faces_ - options_.faces) / 2; }
+
+  // Half of what a cache line holds is gone by now.
+  void pack() {
+    const PackedIds ids = mesh_.pack();
+    const auto move = [](auto& values, const Buffer<Index>& numbers, Index count) {
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (numbers[i] >= 0) values[at(numbers[i])] = values[i];
+      }
+      values.truncate(at(count));
+    };
+    move(costs_, ids.halfedges, mesh_.view().halfedge_count());
+    for (Buffer<Index>& places : places_) move(places, ids.vertices, mesh_.view().vertex_count());
+  }
 
   // In one way to cut. Returns the edges that are postponed.
   Buffer<Index> run_pass(const Buffer<Index>& edges, const Buffer<Index>& places,

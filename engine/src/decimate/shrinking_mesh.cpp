@@ -1,7 +1,9 @@
 #include "decimate/shrinking_mesh.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "hedgerow/circulate.h"
 #include "kernels/plain_edit.h"
@@ -128,6 +130,49 @@ bool ShrinkingMesh::folds(VertexId v, VertexId other, Double3 place) const noexc
   return false;
 }
 
+PackedIds ShrinkingMesh::pack() {
+  std::optional<PackedIds> first;
+  if (!packed_) {
+    first = PackedIds{Buffer<Index>(static_cast<std::size_t>(view_.vertex_count())),
+                      Buffer<Index>(static_cast<std::size_t>(view_.halfedge_count())),
+                      Buffer<Index>(static_cast<std::size_t>(view_.face_count()))};
+    for (Buffer<Index>* numbers : {&first->vertices, &first->halfedges, &first->faces}) {
+      std::iota(numbers->begin(), numbers->end(), Index{0});
+    }
+  }
+  PackedIds ids = Edit::pack(mesh_);
+  view_ = mesh_.view();
+  columns_ = Edit::columns(mesh_);
+  for (std::size_t v = 0; v < ids.vertices.size(); ++v) {
+    if (ids.vertices[v] >= 0) {
+      vertices_[static_cast<std::size_t>(ids.vertices[v])] = vertices_[v];
+    }
+  }
+  vertices_.truncate(static_cast<std::size_t>(view_.vertex_count()));
+  if (first) packed_ = std::move(first);
+  const auto follow = [](Buffer<Index>& numbers, const Buffer<Index>& next) {
+    for (Index& i : numbers) i = i < 0 ? i : next[static_cast<std::size_t>(i)];
+  };
+  follow(packed_->vertices, ids.vertices);
+  follow(packed_->halfedges, ids.halfedges);
+  follow(packed_->faces, ids.faces);
+  return ids;
+}
+
+namespace {
+
+// The map of a mesh that was packed, from one of the numbers that it had then.
+template <class Id>
+std::vector<Id> unpacked(const Buffer<Index>& packed, const std::vector<Id>& map) {
+  std::vector<Id> all(packed.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (packed[i] >= 0) all[i] = map[static_cast<std::size_t>(packed[i])];
+  }
+  return all;
+}
+
+}  // namespace
+
 Result<DecimateOutput> ShrinkingMesh::finish(DecimateOutput&& output) const {
   Result<Compacted> compacted = mesh_.compact();
   if (!compacted) return fail(compacted.error());
@@ -141,6 +186,11 @@ Result<DecimateOutput> ShrinkingMesh::finish(DecimateOutput&& output) const {
     const double cost = vertices_[v].quadric.at(vertices_[v].position);
     if (cost > 0 && std::isfinite(cost)) output.total_cost += cost;
     store(vertices_[v].position, output.positions.data() + 3 * static_cast<std::size_t>(to.value));
+  }
+  if (packed_) {
+    output.maps = {unpacked(packed_->vertices, output.maps.vertices),
+                   unpacked(packed_->halfedges, output.maps.halfedges),
+                   unpacked(packed_->faces, output.maps.faces)};
   }
   return std::move(output);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "decimate/quadric.h"
 #include "edit/edit.h"
@@ -32,7 +33,7 @@ class ShrinkingMesh {
                 const Execution& execution);
 
   [[nodiscard]] const EditMesh& mesh() const noexcept { return mesh_; }
-  /// Of this mesh for good: no edit makes its columns longer.
+  /// Of this mesh for good: renewed when it is packed.
   [[nodiscard]] const EditView& view() const noexcept { return view_; }
   [[nodiscard]] const ShrinkingVertex& of(VertexId v) const noexcept {
     return vertices_[static_cast<std::size_t>(v.value)];
@@ -41,6 +42,8 @@ class ShrinkingMesh {
   [[nodiscard]] Evaluation evaluate(HalfedgeId h) const noexcept;
   /// How many faces went, or -1: it would turn a face over, or `EditMesh::can_collapse` says no.
   int collapse(HalfedgeId h, const Evaluation& evaluation) noexcept;
+  /// Numbers what is left anew, in its order, and tells how. Between edits; throws std::bad_alloc.
+  [[nodiscard]] PackedIds pack();
   /// The counts, and what is left with new numbers.
   [[nodiscard]] Result<DecimateOutput> finish(DecimateOutput&& output) const;
 
@@ -59,6 +62,7 @@ class ShrinkingMesh {
   kernels::EditColumns columns_;
   double boundary_weight_;
   Buffer<ShrinkingVertex> vertices_;
+  std::optional<PackedIds> packed_;  // from the numbers at first to those of now
 };
 
 }  // namespace hedgerow::decimation

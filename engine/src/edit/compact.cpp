@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "hedgerow/edit.h"
+#include "edit/edit.h"
 #include "represent/forms.h"
 #include "represent/number_halfedges.h"
 
@@ -74,6 +74,61 @@ Result<Compacted> EditMesh::compact() const {
   return Compacted{
       std::move(made->mesh),
       {source.take_vertices(), {halfedges.begin(), halfedges.end()}, source.take_faces()}};
+}
+
+namespace {
+
+// New numbers of those that exist; returns how many.
+template <class Exists>
+Index number(Buffer<Index>& numbers, const Exists& exists) noexcept {
+  Index count = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = exists(static_cast<Index>(i)) ? count++ : kInvalidIndex;
+  }
+  return count;
+}
+
+}  // namespace
+
+PackedIds Edit::pack(EditMesh& mesh) {
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  PackedIds ids{Buffer<Index>(at(mesh.vertex_count())), Buffer<Index>(at(mesh.halfedge_count())),
+                Buffer<Index>(at(mesh.face_count()))};
+  const Index vertices = number(ids.vertices, [&](Index v) { return mesh.has(VertexId(v)); });
+  const Index halfedges = number(ids.halfedges, [&](Index h) { return mesh.has(HalfedgeId(h)); });
+  const Index faces = number(ids.faces, [&](Index f) { return mesh.has(FaceId(f)); });
+  const auto renumbered = [&](const Buffer<Index>& numbers, Index old) {
+    return old < 0 ? old : numbers[at(old)];
+  };
+  // No number grows, so that what is written has been read.
+  for (std::size_t h = 0; h < ids.halfedges.size(); ++h) {
+    if (ids.halfedges[h] < 0) continue;
+    const std::size_t to = at(ids.halfedges[h]);
+    mesh.origin_[to] = ids.vertices[at(mesh.origin_[h])];
+    mesh.opposite_[to] = ids.halfedges[at(mesh.opposite_[h])];
+    mesh.next_[to] = ids.halfedges[at(mesh.next_[h])];
+    mesh.prev_[to] = ids.halfedges[at(mesh.prev_[h])];
+    mesh.face_[to] = renumbered(ids.faces, mesh.face_[h]);
+  }
+  for (std::size_t v = 0; v < ids.vertices.size(); ++v) {
+    if (ids.vertices[v] < 0) continue;
+    mesh.outgoing_[at(ids.vertices[v])] = renumbered(ids.halfedges, mesh.outgoing_[v]);
+    mesh.is_gone_[at(ids.vertices[v])] = 0;
+  }
+  for (std::size_t f = 0; f < ids.faces.size(); ++f) {
+    if (ids.faces[f] >= 0) mesh.first_[at(ids.faces[f])] = ids.halfedges[at(mesh.first_[f])];
+  }
+  for (FanStart& fan : mesh.fans_) {
+    fan = {VertexId(ids.vertices[at(fan.vertex.value)]),
+           HalfedgeId(ids.halfedges[at(fan.start.value)])};
+  }
+  const Index counts[] = {vertices, halfedges, faces};
+  for (const EditColumn which :
+       {EditColumn::origin, EditColumn::opposite, EditColumn::next, EditColumn::prev,
+        EditColumn::face, EditColumn::outgoing, EditColumn::is_gone, EditColumn::first}) {
+    mesh.column(which).resize(at(counts[static_cast<std::size_t>(element_of(which))]));
+  }
+  return ids;
 }
 
 }  // namespace hedgerow

@@ -9,6 +9,13 @@
 
 namespace hedgerow {
 
+/// Old to new numbers, each kind in ascending order; kInvalidIndex for what was removed.
+struct PackedIds {
+  Buffer<Index> vertices;
+  Buffer<Index> halfedges;
+  Buffer<Index> faces;
+};
+
 /// One edit under way: reads and writes the columns of a mesh, and keeps the record of it. What it
 /// is asked to do has been found possible.
 class Edit {
@@ -64,6 +71,10 @@ class Edit {
                         std::size_t writes);
   /// So many more elements, all of their entries to be filled.
   void grow(Index vertices, Index halfedges, Index faces);
+
+  /// Numbers what is left anew, in its order and in place: unlike `EditMesh::compact` half-edges,
+  /// too. Records of before are of another mesh. Throws std::bad_alloc before any change.
+  [[nodiscard]] static PackedIds pack(EditMesh& mesh);
 
   void settle(VertexId v, HalfedgeId h) { kernels::settle(*this, v, h); }
   void settle_if_needed(VertexId v, HalfedgeId h) { kernels::settle_if_needed(*this, v, h); }
