@@ -5,10 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "hedgerow/circulate.h"
+#include "parallel_ranges.h"
 #include "peers/measured_mesh.h"
 #include "runner.h"
 #include "stored_form.h"
@@ -74,16 +72,7 @@ void gather_sums(const Mesh& mesh, const Execution& execution, const Sum& sum_of
       sums[static_cast<std::size_t>(v)] = sum_of(mesh, VertexId(v));
     }
   };
-  if (execution.threads() == 1) {
-    run(0, mesh.vertex_count());
-    return;
-  }
-  auto body = [&] {
-    tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.vertex_count(), 4096),
-                      [&](const auto& range) { run(range.begin(), range.end()); });
-  };
-  execution.enter()(
-      execution.context(), [](void* user) { (*static_cast<decltype(body)*>(user))(); }, &body);
+  for_ranges(execution, mesh.vertex_count(), Index{4096}, run);
 }
 
 /// The sums of the half-edges that leave each vertex, from the column of origins.

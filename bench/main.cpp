@@ -63,6 +63,8 @@ void describe(CLI::App& app, Options& options) {
                  "Triangles of the largest meshes (default: by cache and memory)");
   app.add_flag("--representations", options.plan.is_represented,
                "Ask every representation the same questions, and nothing else");
+  app.add_flag("--imr", options.plan.is_imr,
+               "The six tests of the IMR 2011 suite, and nothing else");
   app.add_flag("--smoke", options.plan.is_smoke, "Every benchmark once, on tiny meshes");
   app.allow_extras();
 }
@@ -81,6 +83,7 @@ void add_all(const Plan& plan) {
   add_planar(plan);
   add_decimate(plan);
   add_representations(plan);
+  add_imr(plan);
 }
 
 /// Returns the number of wrong answers.

@@ -40,6 +40,7 @@ Plan smoke_plan() {
   plan.all.push_back({"fan", 300, ""});
   plan.disordered = {{"moved-0", 200, ""}, {"moved-400", 200, ""}};
   plan.planar = {{"points", 200, ""}};
+  plan.imr = {{"grid", 200, ""}, {"scan", 200, ""}, {"icosphere", 320, ""}};
   plan.represented = {{"grid", 200, ""}, {"shuffled", 200, ""}, {"icosphere", 320, ""}};
   return plan;
 }
@@ -49,6 +50,13 @@ Plan represented_plan() {
   for (const std::int64_t size : {std::int64_t{10'000}, kMillion, 4 * kMillion}) {
     for (const char* order : {"grid", "shuffled"}) plan.represented.push_back({order, size, ""});
   }
+  return plan;
+}
+
+Plan imr_plan() {
+  Plan plan;
+  plan.imr = {{"grid", 20'000, ""}};
+  for (const char* order : {"grid", "scan", "shuffled"}) plan.imr.push_back({order, kMillion, ""});
   return plan;
 }
 
@@ -107,8 +115,10 @@ Plan make_plan(const PlanOptions& options) {
   const std::int64_t largest = options.largest > 0 ? options.largest : largest_mesh();
   Plan plan = options.is_smoke         ? smoke_plan()
               : options.is_represented ? represented_plan()
+              : options.is_imr         ? imr_plan()
                                        : full_plan(largest);
-  if (!options.is_smoke && !options.is_represented && !options.is_recorded) add_quick(plan);
+  const bool is_full = !options.is_smoke && !options.is_represented && !options.is_imr;
+  if (is_full && !options.is_recorded) add_quick(plan);
   if (!options.is_smoke && options.is_counted) add_counted(plan);
   plan.is_smoke = options.is_smoke;
   plan.threads = options.threads;
@@ -123,6 +133,10 @@ Plan make_plan(const PlanOptions& options) {
   for (const std::string& mesh : options.meshes) {
     const std::int64_t face_count = read_soup(mesh).face_count();
     const DatasetKey key{std::filesystem::path(mesh).stem().string(), face_count, mesh};
+    if (options.is_imr) {
+      plan.imr.push_back(key);
+      continue;
+    }
     // The first is measured like the generated ones; the others for the builder's choice.
     if (&mesh == &options.meshes.front()) {
       plan.all.push_back(key);

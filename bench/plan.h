@@ -16,6 +16,7 @@ struct PlanOptions {
   bool is_smoke = false;
   bool is_recorded = false;     ///< for the tables of PERF.md, and nothing that is not in them
   bool is_counted = false;      ///< for bench/limits.py as well
+  bool is_imr = false;          ///< the IMR 2011 suite, and nothing else
   bool is_represented = false;  ///< the representations, on generated meshes, and nothing else
 };
 

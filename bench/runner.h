@@ -92,6 +92,7 @@ struct Plan {
   std::vector<DatasetKey> large;        ///< variants and whole-mesh operations as well
   std::vector<DatasetKey> disordered;   ///< the two strategies of the builder, and nothing else
   std::vector<DatasetKey> represented;  ///< every representation, and nothing else
+  std::vector<DatasetKey> imr;          ///< the six tests of the IMR 2011 suite, and nothing else
   std::vector<DatasetKey> planar;       ///< triangulations, cells, flips and decimation, no other
   std::vector<int> threads;
   bool is_smoke = false;  ///< tiny meshes, one iteration each
@@ -120,6 +121,7 @@ void add_build(const Plan& plan);
 void add_circulate(const Plan& plan);
 void add_decimate(const Plan& plan);
 void add_dirty(const Plan& plan);
+void add_imr(const Plan& plan);
 void add_normals(const Plan& plan);
 void add_planar(const Plan& plan);
 void add_query(const Plan& plan);

@@ -89,10 +89,25 @@ class PointerHalfedgeMesh {
   [[nodiscard]] std::vector<float> face_normals() const;    ///< three floats a face
   [[nodiscard]] std::vector<float> vertex_normals() const;  ///< three floats a vertex
 
+  // Edits, for meshes of triangles with one fan a vertex. Elements keep their ids until `compact`.
+
+  /// Joins a new vertex at the mean of the corners of f to all of them; f stays the first triangle.
+  void split_face(Index f);
+  /// Turns the edge of h to the other diagonal if it is not on the boundary and that diagonal is
+  /// no edge; returns whether it did.
+  bool flip(Index h);
+  /// Moves the vertex v along the half-edge that it knows into that one's target.
+  /// \pre v is not on the boundary; the link condition holds.
+  void collapse(Index v);
+  /// Frees what collapses removed and numbers the rest anew, in order. O(V + H + F).
+  void compact();
+
   /// Bytes of the records and of the arrays that own them, without the allocator's own.
   [[nodiscard]] std::size_t bytes() const noexcept;
 
  private:
+  friend class PointerEditor;
+
   void make_vertices(Positions positions, std::int64_t count);
   void make_faces(const FaceList& faces);
   void pair_opposites();
@@ -114,6 +129,7 @@ struct HalfedgeWalk {
   static Index origin(Handle h) noexcept { return h->vertex->id; }
   static const float* position(Handle h) noexcept { return h->vertex->position; }
   static const PointerHalfedgeMesh::Face& face(Handle h) noexcept { return *h->face; }
+  static Index face_id(Handle h) noexcept { return h->face->id; }
   static Handle outgoing(const PointerHalfedgeMesh::Vertex& vertex) noexcept {
     return vertex.halfedge;
   }

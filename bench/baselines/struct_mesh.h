@@ -17,7 +17,8 @@ namespace hedgerow::baselines {
 /// leaving pointers behind.
 ///
 /// Layout     Half-edge {origin, opposite, next, face} 16 bytes, vertex 28, face 20 (32-bit
-/// indices). Boundary   Default form: `opposite` is -1, no half-edge exists outside the faces.
+/// indices).
+/// Boundary   Default form: `opposite` is -1, no half-edge exists outside the faces.
 /// Pairs, fans, threads   As `PointerHalfedgeMesh`.
 class StructHalfedgeMesh {
  public:
@@ -43,6 +44,17 @@ class StructHalfedgeMesh {
   /// \pre as `PointerHalfedgeMesh`.
   StructHalfedgeMesh(const FaceList& faces, Positions positions);
 
+  [[nodiscard]] const Vertex& vertex(Index v) const noexcept {
+    return vertices_[static_cast<std::size_t>(v)];
+  }
+  [[nodiscard]] Vertex& vertex(Index v) noexcept { return vertices_[static_cast<std::size_t>(v)]; }
+  [[nodiscard]] const Halfedge& halfedge(Index h) const noexcept {
+    return halfedges_[static_cast<std::size_t>(h)];
+  }
+  [[nodiscard]] const Face& face(Index f) const noexcept {
+    return faces_[static_cast<std::size_t>(f)];
+  }
+
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(vertices_.size()); }
   [[nodiscard]] Index halfedge_count() const noexcept {
     return static_cast<Index>(halfedges_.size());
@@ -62,9 +74,17 @@ class StructHalfedgeMesh {
   [[nodiscard]] std::vector<float> face_normals() const;
   [[nodiscard]] std::vector<float> vertex_normals() const;
 
+  void split_face(Index f);
+  bool flip(Index h);
+  void collapse(Index v);
+  void compact();
+
   [[nodiscard]] std::size_t bytes() const noexcept;
 
  private:
+  friend class StructEditor;
+  friend class StructWalk;
+
   void make_faces(const FaceList& faces);
   void pair_opposites();
   void choose_outgoing();
@@ -72,6 +92,40 @@ class StructHalfedgeMesh {
   std::vector<Vertex> vertices_;
   std::vector<Halfedge> halfedges_;
   std::vector<Face> faces_;
+};
+
+/// Steps on the records of a `StructHalfedgeMesh`, each O(1) but `prev`: O(degree).
+/// Lifetime   Until elements are added or removed.
+class StructWalk {
+ public:
+  using Handle = Index;
+
+  explicit StructWalk(const StructHalfedgeMesh& mesh) noexcept
+      : halfedges_(mesh.halfedges_.data()),
+        vertices_(mesh.vertices_.data()),
+        faces_(mesh.faces_.data()) {}
+
+  static bool is_valid(Handle h) noexcept { return h != kInvalidIndex; }
+  [[nodiscard]] Handle next(Handle h) const noexcept { return halfedges_[h].next; }
+  [[nodiscard]] Handle prev(Handle h) const noexcept {
+    Handle g = halfedges_[h].next;
+    while (halfedges_[g].next != h) g = halfedges_[g].next;
+    return g;
+  }
+  [[nodiscard]] Handle opposite(Handle h) const noexcept { return halfedges_[h].opposite; }
+  [[nodiscard]] Index origin(Handle h) const noexcept { return halfedges_[h].origin; }
+  [[nodiscard]] const float* position(Handle h) const noexcept {
+    return vertices_[halfedges_[h].origin].position;
+  }
+  [[nodiscard]] const StructHalfedgeMesh::Face& face(Handle h) const noexcept {
+    return faces_[halfedges_[h].face];
+  }
+  [[nodiscard]] Index face_id(Handle h) const noexcept { return halfedges_[h].face; }
+
+ private:
+  const StructHalfedgeMesh::Halfedge* halfedges_;
+  const StructHalfedgeMesh::Vertex* vertices_;
+  const StructHalfedgeMesh::Face* faces_;
 };
 
 }  // namespace hedgerow::baselines

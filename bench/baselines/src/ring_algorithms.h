@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -66,6 +67,20 @@ Vector area_vector(const Mesh& mesh, typename Mesh::Handle h) {
     from = to;
   }
   return sum;
+}
+
+/// The mean of the corners of the face that h is in.
+template <class Mesh>
+std::array<float, 3> center(const Mesh& mesh, typename Mesh::Handle h) {
+  Vector sum;
+  float count = 0;
+  typename Mesh::Handle side = h;
+  do {
+    sum = sum + load(mesh.position(side));
+    count += 1;
+    side = mesh.next(side);
+  } while (side != h);
+  return {sum.x / count, sum.y / count, sum.z / count};
 }
 
 /// How much the corner where h leaves adds to its vertex.

@@ -9,26 +9,7 @@ namespace hedgerow::baselines {
 
 namespace {
 
-using Mesh = StructHalfedgeMesh;
-
-struct Walk {
-  using Handle = Index;
-  const Mesh::Halfedge* halfedges;
-  const Mesh::Vertex* vertices;
-  const Mesh::Face* faces;
-
-  static bool is_valid(Handle h) noexcept { return h != kInvalidIndex; }
-  Handle next(Handle h) const noexcept { return halfedges[h].next; }
-  Handle prev(Handle h) const noexcept {
-    Handle g = halfedges[h].next;
-    while (halfedges[g].next != h) g = halfedges[g].next;
-    return g;
-  }
-  Handle opposite(Handle h) const noexcept { return halfedges[h].opposite; }
-  Index origin(Handle h) const noexcept { return halfedges[h].origin; }
-  const float* position(Handle h) const noexcept { return vertices[halfedges[h].origin].position; }
-  const Mesh::Face& face(Handle h) const noexcept { return faces[halfedges[h].face]; }
-};
+using Walk = StructWalk;
 
 /// A half-edge under the smaller and larger vertex of its edge.
 struct EdgeRecord {
@@ -92,7 +73,7 @@ void StructHalfedgeMesh::pair_opposites() {
 }
 
 void StructHalfedgeMesh::choose_outgoing() {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   const auto is_start = [&](Index h) { return !Walk::is_valid(walk.opposite(walk.prev(h))); };
   for (Index h = 0; h < halfedge_count(); ++h) {
     Index& outgoing = vertices_[static_cast<std::size_t>(walk.origin(h))].halfedge;
@@ -101,7 +82,7 @@ void StructHalfedgeMesh::choose_outgoing() {
 }
 
 void StructHalfedgeMesh::compute_face_normals() {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   for (Face& face : faces_) {
     const detail::Vector area = detail::area_vector(walk, face.halfedge);
     detail::store(detail::normalized(area), face.normal);
@@ -110,21 +91,21 @@ void StructHalfedgeMesh::compute_face_normals() {
 }
 
 void StructHalfedgeMesh::compute_vertex_normals(NormalWeight weight) {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   for (Vertex& vertex : vertices_) {
     detail::store(detail::vertex_normal(walk, vertex.halfedge, weight), vertex.normal);
   }
 }
 
 void StructHalfedgeMesh::fill_one_ring_sums(std::span<std::uint32_t> sums) const {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     sums[v] = detail::one_ring_sum(walk, vertices_[v].halfedge);
   }
 }
 
 Index StructHalfedgeMesh::boundary_loop_count() const {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   std::vector<bool> is_seen(halfedges_.size(), false);
   Index loops = 0;
   for (Index h = 0; h < halfedge_count(); ++h) {
@@ -140,7 +121,7 @@ Index StructHalfedgeMesh::boundary_loop_count() const {
 }
 
 Index StructHalfedgeMesh::component_count() const {
-  const Walk walk{halfedges_.data(), vertices_.data(), faces_.data()};
+  const Walk walk(*this);
   detail::Sets sets(vertices_.size());
   for (Index h = 0; h < halfedge_count(); ++h) {
     sets.unite(walk.origin(h), walk.origin(walk.next(h)));
