@@ -72,7 +72,7 @@ void gather_sums(const Mesh& mesh, const Execution& execution, const Sum& sum_of
       sums[static_cast<std::size_t>(v)] = sum_of(mesh, VertexId(v));
     }
   };
-  for_ranges(execution, mesh.vertex_count(), Index{4096}, run);
+  for_ranges(execution, mesh.vertex_count(), 4096, run);
 }
 
 /// The sums of the half-edges that leave each vertex, from the column of origins.

@@ -47,7 +47,7 @@ void center(Buffer<float>& xyz, const Execution& execution) {
     return xyz.data() + std::min(xyz.size(), block * kBlock);
   };
   std::vector<Sums> sums(blocks);
-  for_ranges(execution, blocks, std::size_t{4}, [&](std::size_t first, std::size_t last) {
+  for_ranges(execution, blocks, 4, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) sums[b] = sum_of(begin_of(b), begin_of(b + 1));
   });
   Sums mean{};
@@ -55,7 +55,7 @@ void center(Buffer<float>& xyz, const Execution& execution) {
     for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += sum[axis];
   }
   for (double& x : mean) x /= static_cast<double>(xyz.size() / 3);
-  for_ranges(execution, blocks, std::size_t{4}, [&](std::size_t first, std::size_t last) {
+  for_ranges(execution, blocks, 4, [&](std::size_t first, std::size_t last) {
     subtract(mean, begin_of(first), begin_of(last));
   });
 }

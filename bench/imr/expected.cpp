@@ -81,7 +81,7 @@ std::vector<Triangle> sorted_triangles(std::span<const Index> corners) {
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     Triangle triangle = {corners[i], corners[i + 1], corners[i + 2]};
-    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
     triangles.push_back(triangle);
   }
   std::ranges::sort(triangles);

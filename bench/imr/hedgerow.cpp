@@ -136,7 +136,7 @@ class HedgerowImr final : public ImrMesh {
   }
 
  private:
-  static constexpr Index kGrain = 4096;
+  static constexpr std::size_t kGrain = 4096;
 
   static Buffer<float> packed(Positions positions) {
     return Buffer<float>::copy_of({positions.data, static_cast<std::size_t>(3 * positions.count)});

@@ -39,14 +39,16 @@ using MutablePositions = NormalsOut;
 ///            triangulated 2-manifolds", 2002; of a negative weight nothing is left, so that a
 ///            vertex never leaves the hull of its neighbours. Angles at the positions before each
 ///            move.
-/// Sums       In double, clockwise from `outgoing`; rounded to float once a move.
+/// Sums       cotangent: in double, clockwise from `outgoing`. umbrella: in float, in that order
+///            but for vertex v - 1, which changes places with the last; in double where that leads
+///            to nothing finite.
 /// Pre        `mesh` is sound, as `validate` says; 0 < step <= 1.
 /// Complexity O(iterations H). Double-buffered: reads the mesh and one copy of the positions and
 ///            writes the other, 12 bytes a vertex; the copy is the scratch. In place: no scratch.
 /// Errors     count_mismatch: too few positions; bad_stride; null_pointer; not_triangles: with
 ///            cotangent weights, the first face that is none; scratch_too_small. Then nothing has
 ///            moved. Throws std::bad_alloc where `workspace` may grow.
-/// Threads    Double-buffered: those of `execution`, same bits for all of them.
+/// Threads    Double-buffered: those of `execution`, same bits for all of them, scalar or SIMD.
 [[nodiscard]] Result<void> smooth(const Connectivity& mesh, MutablePositions positions,
                                   const SmoothOptions& options, const Execution& execution,
                                   Workspace& workspace);

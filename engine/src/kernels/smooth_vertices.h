@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cmath>
+#include <cstdint>
 
-#include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/positions.h"
-#include "hedgerow/query.h"
 #include "hedgerow/smooth.h"
+#include "hedgerow/topology.h"
 #include "kernels/normals_math.h"
 
 /// One step of Laplacian smoothing.
@@ -24,70 +23,41 @@ struct SmoothStep {
   }
 };
 
-/// The cotangent of the angle at `p` between the ways to `a` and `b`; nothing of a negative one,
-/// nor where there is no angle.
-[[nodiscard]] inline double cotangent(Vec3<double> p, Vec3<double> a, Vec3<double> b) noexcept {
-  const Vec3<double> u = a - p;
-  const Vec3<double> v = b - p;
-  const Vec3<double> c = cross(u, v);
-  const double sine = std::sqrt(dot(c, c));
-  const double cosine = dot(u, v);
-  return sine > 0 && cosine > 0 ? cosine / sine : 0;
+/// Its share of the mean for each number of neighbours; the same in all forms of the kernel.
+[[nodiscard]] inline float umbrella_share(const SmoothStep& step, Index valence) noexcept {
+  return step.step / static_cast<float>(valence);
 }
 
-/// The weight of the half-edge that leaves the vertex to be moved.
-template <SmoothWeights W, class Mesh>
-[[nodiscard]] double weight_of(const Mesh& mesh, const SmoothStep& step, HalfedgeId h) noexcept {
-  if constexpr (W == SmoothWeights::umbrella) return 1;
-  const HalfedgeId o = mesh.opposite[h];
-  const Vec3<double> here = step[mesh.origin[h]];
-  const Vec3<double> there = step[mesh.target(h)];
-  return cotangent(step[mesh.origin[mesh.prev(h)]], here, there) +
-         cotangent(step[mesh.origin[mesh.prev(o)]], here, there);
-}
+/// Moves the vertices of a range, in ascending order. Reads those of their neighbours.
+///
+/// The sum of a ring runs clockwise from `outgoing`; that of the umbrella in float, with v - 1 in
+/// the last place if it is in the ring (they change places): in a mesh in order that one has just
+/// been moved, and what is added after it would wait for it. Again in double where the float sum
+/// leads nowhere finite.
+void smooth_vertices(IndexRange range, const TriangleView& mesh, const SmoothStep& step,
+                     SmoothWeights weights) noexcept;
+void smooth_vertices(IndexRange range, const PolygonView& mesh, const SmoothStep& step,
+                     SmoothWeights weights) noexcept;
 
-template <class Mesh>
-[[nodiscard]] bool is_movable(const Mesh& mesh, VertexId v) noexcept {
-  return mesh.outgoing[v].valid() && !is_boundary(mesh, v) && extra_fans(mesh.fans, v).empty();
-}
+/// Neighbours of vertices in a row.
+struct RingTable {
+  static constexpr int kVertices = 32;
+  static constexpr int kMostNeighbours = 8;
 
-template <SmoothWeights W, class Mesh>
-void smooth_weighted(IndexRange range, const Mesh& mesh, const SmoothStep& step) noexcept {
-  for (VertexId v(range.begin); v.value < range.end; ++v.value) {
-    float* to = step.to[v.value];
-    const float* here = step.from[v.value];
-    Vec3<double> sum{0, 0, 0};
-    double weights = 0;
-    if (is_movable(mesh, v)) {
-      for (const HalfedgeId h : outgoing_halfedges(mesh, v)) {
-        const double weight = weight_of<W>(mesh, step, h);
-        sum = sum + step[mesh.target(h)] * weight;
-        weights += weight;
-      }
-    }
-    const Vec3<double> way = sum * (1 / weights) - step[v];
-    const Vec3<double> place = step[v] + way * static_cast<double>(step.step);
-    const auto x = static_cast<float>(place.x);
-    const auto y = static_cast<float>(place.y);
-    const auto z = static_cast<float>(place.z);
-    // Not finite without weights, too: 0 / 0.
-    const bool is_moved = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-    to[0] = is_moved ? x : here[0];
-    to[1] = is_moved ? y : here[1];
-    to[2] = is_moved ? z : here[2];
-  }
-}
+  Index neighbour[kMostNeighbours][kVertices];  ///< in the order of the sum
+  Index valence[kVertices];
+};
 
-/// Moves the vertices of a range. Reads those of their neighbours.
-template <class Mesh>
-void smooth_vertices(IndexRange range, const Mesh& mesh, const SmoothStep& step,
-                     SmoothWeights weights) noexcept {
-  if (weights == SmoothWeights::cotangent) {
-    smooth_weighted<SmoothWeights::cotangent>(range, mesh, step);
-  } else {
-    smooth_weighted<SmoothWeights::umbrella>(range, mesh, step);
-  }
-}
+/// Fills the table for the vertices from `first` on; returns the bits of those that it holds: they
+/// lie within one fan, closed, and have few neighbours. Whether they have other fans is not looked
+/// at. None where the build has no AVX2.
+/// \pre the processor has AVX2, and indices are 32 bits wide; see `simd_path`
+[[nodiscard]] std::uint32_t find_rings_avx2(Index first, const TriangleView& mesh,
+                                            RingTable& table) noexcept;
+/// Moves vertices first + i for i in [begin, end), which the table holds, until one of them would
+/// leave the finite numbers; returns i of that one, or `end`.
+[[nodiscard]] int smooth_listed_avx2(Index first, int begin, int end, const RingTable& table,
+                                     const SmoothStep& step) noexcept;
 
 inline void copy_positions(IndexRange range, const Positions& from,
                            const MutablePositions& to) noexcept {
