@@ -15,12 +15,16 @@ namespace {
 constexpr std::size_t kStep = 12;
 constexpr std::size_t kBlock = 1024 * kStep;
 
+/// Floats ahead that are asked for: the processor by itself asks for too few.
+constexpr std::size_t kAhead = 512;
+
 using Sums = std::array<double, 3>;
 
 Sums sum_of(const float* begin, const float* end) {
   std::array<double, kStep> sums{};
   const float* p = begin;
   for (; end - p >= static_cast<std::ptrdiff_t>(kStep); p += kStep) {
+    __builtin_prefetch(p + kAhead);
     for (std::size_t i = 0; i < kStep; ++i) sums[i] += double{p[i]};
   }
   for (std::size_t i = 0; p != end; ++p, ++i) sums[i] += double{*p};
@@ -34,6 +38,7 @@ void subtract(const Sums& mean, float* begin, float* end) {
   for (std::size_t i = 0; i < kStep; ++i) offsets[i] = static_cast<float>(mean[i % 3]);
   float* p = begin;
   for (; end - p >= static_cast<std::ptrdiff_t>(kStep); p += kStep) {
+    __builtin_prefetch(p + kAhead);
     for (std::size_t i = 0; i < kStep; ++i) p[i] -= offsets[i];
   }
   for (std::size_t i = 0; p != end; ++p, ++i) *p -= offsets[i];

@@ -86,7 +86,10 @@ struct TriangleView {
     return HalfedgeId(is_corner(h, 0) ? h.value + 2 : h.value - 1);
   }
   [[nodiscard]] VertexId target(HalfedgeId h) const noexcept { return origin[next(h)]; }
-  [[nodiscard]] FaceId face(HalfedgeId h) const noexcept { return FaceId(h.value / 3); }
+  [[nodiscard]] FaceId face(HalfedgeId h) const noexcept {
+    // Without a sign, a quotient is one multiplication.
+    return FaceId(static_cast<Index>(static_cast<std::make_unsigned_t<Index>>(h.value) / 3));
+  }
   [[nodiscard]] HalfedgeId first(FaceId f) const noexcept { return HalfedgeId(3 * f.value); }
   [[nodiscard]] Index degree(FaceId) const noexcept { return 3; }
 
