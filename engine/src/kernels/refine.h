@@ -60,6 +60,17 @@ void fill_quads(IndexRange halfedges, const Mesh& mesh, const Index* rank,
   }
 }
 
+/// Where the builder starts the fan of the point of an edge, h being the smaller side of it. Two
+/// half-edges leave it on each side; on the boundary, the first of them has none before it.
+template <Topology Mesh>
+[[nodiscard]] Index quad_edge_start(const Mesh& mesh, HalfedgeId h) noexcept {
+  const auto smaller_of = [&](HalfedgeId side) {
+    return std::min(4 * side.value + 1, 4 * mesh.next(side).value + 3);
+  };
+  const HalfedgeId across = mesh.opposite[h];
+  return across.valid() ? std::min(smaller_of(h), smaller_of(across)) : 4 * h.value + 1;
+}
+
 /// The first half-edge of the child that Loop's scheme makes at the origin of h.
 [[nodiscard]] inline Index corner_child(HalfedgeId h) noexcept {
   return 12 * (h.value / 3) + 3 * (h.value % 3);
@@ -86,6 +97,17 @@ inline void fill_quarters(IndexRange halfedges, const TriangleView& mesh, const 
     out.origin[middle + i % 3] = edge_point;
     out.opposite[middle + i % 3] = corner_child(mesh.next(h)) + 1;
   }
+}
+
+/// Where the builder starts the fan of the middle of an edge, h being the smaller side of it. Three
+/// half-edges leave it on each side, those in the middle triangle behind the others; on the
+/// boundary, the one in the corner of h has none before it.
+[[nodiscard]] inline Index quarter_edge_start(const TriangleView& mesh, HalfedgeId h) noexcept {
+  const auto smaller_of = [&](HalfedgeId side) {
+    return std::min(corner_child(side) + 1, corner_child(mesh.next(side)) + 2);
+  };
+  const HalfedgeId across = mesh.opposite[h];
+  return across.valid() ? std::min(smaller_of(h), smaller_of(across)) : corner_child(h) + 1;
 }
 
 [[nodiscard]] inline bool has_boundary_edge(const TriangleView& mesh, FaceId f) noexcept {

@@ -144,18 +144,25 @@ template <Topology Mesh, class Smooth, class Crease>
 
 struct RingSum {
   Point neighbours;
+  Point faces;  ///< of their centres, if asked for
   Index valence = 0;
 };
 /// \pre v is inside the mesh, in one fan.
 template <Topology Mesh>
-[[nodiscard]] RingSum ring_sum(const Mesh& mesh, const Positions& positions, VertexId v) noexcept {
+[[nodiscard]] RingSum ring_sum(const Mesh& mesh, const Positions& positions, VertexId v,
+                               const Positions* centres = nullptr) noexcept {
   RingSum ring;
   const HalfedgeId start = mesh.outgoing[v];
   HalfedgeId h = start;
   do {
-    ring.neighbours = ring.neighbours + point_at(positions, mesh.target(h));
+    // The neighbour is where the walk goes on from.
+    const HalfedgeId across = mesh.opposite[h];
+    ring.neighbours = ring.neighbours + point_at(positions, mesh.origin[across]);
+    if (centres != nullptr) {
+      ring.faces = ring.faces + point_at(*centres, VertexId(mesh.face(h).value));
+    }
     ++ring.valence;
-    h = mesh.next(mesh.opposite[h]);
+    h = mesh.next(across);
   } while (h != start);
   return ring;
 }
@@ -164,18 +171,11 @@ template <Topology Mesh>
 template <Topology Mesh>
 [[nodiscard]] Point quad_smooth(const Mesh& mesh, const Positions& positions,
                                 const Positions& centres, VertexId v) noexcept {
-  const RingSum ring = ring_sum(mesh, positions, v);
-  const HalfedgeId start = mesh.outgoing[v];
-  Point faces;
-  HalfedgeId h = start;
-  do {
-    faces = faces + point_at(centres, VertexId(mesh.face(h).value));
-    h = mesh.next(mesh.opposite[h]);
-  } while (h != start);
+  const RingSum ring = ring_sum(mesh, positions, v, &centres);
   const auto n = static_cast<double>(ring.valence);
   // Of the middles, half is the vertex itself: Q / n + 2 R / n + (n - 3) S / n.
   const Point old = point_at(positions, v);
-  return (1 / (n * n)) * (faces + ring.neighbours) + ((n - 2) / n) * old;
+  return (1 / (n * n)) * (ring.faces + ring.neighbours) + ((n - 2) / n) * old;
 }
 
 [[nodiscard]] inline Point loop_smooth(const TriangleView& mesh, const Positions& positions,

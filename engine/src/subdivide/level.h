@@ -123,6 +123,23 @@ void start_old(const Mesh& mesh, const ChildMesh& child_mesh, const Seed& seed,
   renew_fans(mesh, child_mesh, seed, child);
 }
 
+// The same where the children of the half-edges round a vertex are those round it in the child, in
+// the same order: `child_of(h)` leaves the origin of h, and ascends with it. So the fans of the
+// parent, which are a quarter as far apart, tell where those of the child start.
+template <Topology Mesh, class ChildMesh, class ChildOf>
+void start_old_as_before(const Mesh& mesh, const ChildMesh& child_mesh, const ChildOf& child_of,
+                         const Execution& execution, Child& child) {
+  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+    for (Index v = range.begin; v < range.end; ++v) {
+      const HalfedgeId start = mesh.outgoing[VertexId(v)];
+      child.outgoing[at(v)] =
+          start.valid() ? child_of(HalfedgeId(kernels::child_fan(mesh, start).start)).value
+                        : kInvalidIndex;
+    }
+  });
+  renew_fans(mesh, child_mesh, child_of, child);
+}
+
 inline TriangleView triangle_view(const Child& child) noexcept {
   const auto count = static_cast<Index>(child.origin.size());
   return {{child.origin.data(), count}, {child.opposite.data(), count}, {}, {}};

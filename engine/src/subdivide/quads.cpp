@@ -87,19 +87,19 @@ Result<SubdivisionOutput> refine_view(const Mesh& mesh, const Level& level,
   });
   const kernels::QuadView quads{{child.origin.data(), *halfedges},
                                 {child.opposite.data(), *halfedges}};
-  start_old(
+  start_old_as_before(
       mesh, quads, [](HalfedgeId h) { return HalfedgeId(4 * h.value); }, execution, child);
   par::for_each_range(execution, mesh.face_count(), kGrain, [&](IndexRange range) {
     for (Index f = range.begin; f < range.end; ++f) {
-      const HalfedgeId seed(4 * mesh.first(FaceId(f)).value + 2);
-      child.outgoing[at(mesh.vertex_count() + f)] = kernels::child_fan(quads, seed).start;
+      // One half-edge leaves the centre towards each side of the face: the first has the first.
+      child.outgoing[at(mesh.vertex_count() + f)] = 4 * mesh.first(FaceId(f)).value + 2;
     }
   });
   par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
     for (Index h = range.begin; h < range.end; ++h) {
       if (kernels::smaller_side(mesh, HalfedgeId(h)).value != h) continue;
-      const HalfedgeId seed(4 * h + 1);
-      child.outgoing[at(edge_base + edges.before[at(h)])] = kernels::child_fan(quads, seed).start;
+      child.outgoing[at(edge_base + edges.before[at(h)])] =
+          kernels::quad_edge_start(mesh, HalfedgeId(h));
     }
   });
   place_quads(mesh, level, edges, execution, child);

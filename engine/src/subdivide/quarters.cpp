@@ -50,12 +50,12 @@ Result<SubdivisionOutput> refine_quarters(const TriangleView& mesh, const Level&
   });
   const TriangleView triangles = triangle_view(child);
   const auto seed = [](HalfedgeId h) { return HalfedgeId(kernels::corner_child(h)); };
-  start_old(mesh, triangles, seed, execution, child);
+  start_old_as_before(mesh, triangles, seed, execution, child);
   par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
     for (Index h = range.begin; h < range.end; ++h) {
       if (kernels::smaller_side(mesh, HalfedgeId(h)).value != h) continue;
       child.outgoing[at(mesh.vertex_count() + edges.before[at(h)])] =
-          kernels::child_fan(triangles, HalfedgeId(kernels::corner_child(HalfedgeId(h)) + 1)).start;
+          kernels::quarter_edge_start(mesh, HalfedgeId(h));
     }
   });
   place_quarters(mesh, level, edges, execution, child);
