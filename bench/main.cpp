@@ -82,6 +82,7 @@ void add_all(const Plan& plan) {
   add_reorder(plan);
   add_planar(plan);
   add_decimate(plan);
+  add_subdivide(plan);
   add_representations(plan);
   add_imr(plan);
 }

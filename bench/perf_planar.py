@@ -1,16 +1,17 @@
-"""The tables of triangulations, cells, flips and decimation, which are measured by themselves."""
+"""The tables of triangulations, cells, flips, decimation and subdivision, which are measured by themselves."""
 
 from perf_format import markdown, number, percent
 from perf_results import FOLDER
 from perf_tables import targets_table
-from perf_targets import SERIAL, Target, name, times_faster
+from perf_targets import SERIAL, Target, name, share, times_faster
 
 PLANAR = FOLDER / "results" / "planar.json"
-PATTERN = "^(triangulate|voronoi|flip|delaunay|decimate)/"
+PATTERN = "^(triangulate|voronoi|flip|delaunay|decimate|subdivide)/"
 MILLION, IN_CACHE = "points/2M", "points/20k"  # by triangles: a million points, ten thousand
 # What each operation is counted by.
 ELEMENTS = {"triangulate": "points", "voronoi": "points", "flip": "flips",
-            "delaunay": "flips", "decimate": "collapses"}
+            "delaunay": "flips", "decimate": "collapses",
+            "subdivide": "output_halfedges"}
 
 
 def rate(element, *row_name):
@@ -29,6 +30,13 @@ def accepted(*row_name):
     return value
 
 
+def best_share(variants):
+    def value(results, counts):
+        found = [share("subdivide", "grid/1M", SERIAL, variant)(results, counts) for variant in variants]
+        return max((each for each in found if each), default=None)
+    return value
+
+
 PLANAR_TARGETS = (
     Target("planar Delaunay, 1M uniform points, exact, 1 thread",
            rate("points", "triangulate", MILLION, SERIAL), 1.0, 2.5, "M points/s"),
@@ -39,6 +47,11 @@ PLANAR_TARGETS = (
            rate("flips", "flip", IN_CACHE, SERIAL, "batch"), 10, 30, "M flips/s"),
     Target("parallel rounds on a terrain, candidates accepted",
            accepted("delaunay", "terrain/2M", SERIAL), 90, None, "%"),
+    Target("one level of Catmull-Clark, grid of 1M triangles, output half-edges, 1 thread",
+           rate("output_halfedges", "subdivide", "grid/1M", SERIAL, "catmull-clark"), 100, None, "M/s"),
+    Target("one level of Loop", rate("output_halfedges", "subdivide", "grid/1M", SERIAL, "loop"),
+           100, None, "M/s"),
+    Target("the better of them, of the byte limit", best_share(("catmull-clark", "loop")), None, 60, "%"),
     Target("quadric collapses, in cache, 1 thread",
            rate("collapses", "decimate", "terrain/20k", SERIAL, "queue"), 0.7, 3, "M collapses/s"),
     Target("the same in rounds",

@@ -93,7 +93,7 @@ struct Plan {
   std::vector<DatasetKey> disordered;   ///< the two strategies of the builder, and nothing else
   std::vector<DatasetKey> represented;  ///< every representation, and nothing else
   std::vector<DatasetKey> imr;          ///< the six tests of the IMR 2011 suite, and nothing else
-  std::vector<DatasetKey> planar;       ///< triangulations, cells, flips and decimation, no other
+  std::vector<DatasetKey> planar;       ///< triangulations and what changes meshes, no other
   std::vector<int> threads;
   bool is_smoke = false;  ///< tiny meshes, one iteration each
 
@@ -127,6 +127,7 @@ void add_planar(const Plan& plan);
 void add_query(const Plan& plan);
 void add_reorder(const Plan& plan);
 void add_representations(const Plan& plan);
+void add_subdivide(const Plan& plan);
 void add_validate(const Plan& plan);
 
 /// What the connectivity of `mesh` takes.
