@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,9 @@
 #include "baselines/struct_mesh.h"
 #include "hedgerow/build.h"
 #include "hedgerow/face_list.h"
+#include "hedgerow/normals.h"
+#include "hedgerow/shapes.h"
+#include "hedgerow/subdivide.h"
 
 namespace hedgerow::test {
 namespace {
@@ -170,6 +174,128 @@ TEST(Baselines, AgreeWithEachOtherAndTheEngineOnRandomTriangles) {
     structs.compute_vertex_normals(NormalWeight::angle);
     EXPECT_EQ(pointers.vertex_normals(), structs.vertex_normals());
     EXPECT_EQ(winged.vertex_normals(), structs.vertex_normals());
+  }
+}
+
+template <class Mesh>
+class BaselineEdits : public testing::Test {};
+using EditedMeshes = testing::Types<PointerHalfedgeMesh, StructHalfedgeMesh>;
+TYPED_TEST_SUITE(BaselineEdits, EditedMeshes);
+
+template <class Mesh>
+std::vector<std::uint32_t> ring_sums(const Mesh& mesh) {
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(mesh.vertex_count()));
+  mesh.fill_one_ring_sums(sums);
+  return sums;
+}
+
+// A closed mesh, one with a boundary, and one whose boundary touches every vertex.
+std::vector<Soup> shapes_to_edit() {
+  std::vector<Soup> soups;
+  soups.push_back(std::move(*shapes::icosphere(2)));
+  soups.push_back(std::move(*shapes::terrain(7, 5)));
+  soups.push_back(std::move(*shapes::strip(9)));
+  return soups;
+}
+
+TYPED_TEST(BaselineEdits, SubdivideAsTheEngineDoes) {
+  for (const Soup& soup : shapes_to_edit()) {
+    TypeParam mesh(soup.face_list(), soup.positions());
+    const Index old_halfedges = mesh.halfedge_count();
+    const Index old_faces = mesh.face_count();
+    for (Index f = 0; f < old_faces; ++f) mesh.split_face(f);
+    const std::vector<Index> opposite = mesh.opposite();
+    std::int64_t refused = 0;
+    for (Index h = 0; h < old_halfedges; ++h) {
+      if (opposite[static_cast<std::size_t>(h)] < h) refused += mesh.flip(h) ? 0 : 1;
+    }
+    const auto built = build(soup.face_list(), BuildOptions{}, Execution::serial());
+    SubdivisionOptions options;
+    options.scheme = SubdivisionScheme::sqrt3;
+    const auto expected = subdivide(built->mesh, soup.positions(), options, Execution::serial());
+    ASSERT_TRUE(expected.has_value());
+    const TypeParam fresh(face_list(expected->mesh),
+                          {expected->positions.data(), expected->mesh.vertex_count()});
+    EXPECT_EQ(mesh.face_count(), fresh.face_count());
+    EXPECT_EQ(ring_sums(mesh), ring_sums(fresh));
+    EXPECT_EQ(mesh.boundary_loop_count(), fresh.boundary_loop_count());
+    // Boundary edges, and no other.
+    EXPECT_EQ(refused, std::ranges::count(built->mesh.opposite(), kInvalidIndex));
+  }
+}
+
+// Next to the boundary, too, where a vertex has to know where its fan begins.
+TYPED_TEST(BaselineEdits, FlipToAndFro) {
+  for (const Soup& soup : shapes_to_edit()) {
+    TypeParam mesh(soup.face_list(), soup.positions());
+    const Index loops = mesh.boundary_loop_count();
+    const std::vector<Index> opposite = mesh.opposite();
+    const auto corner = [&](Index h, Index k) {
+      return soup.corners[static_cast<std::size_t>(h / 3 * 3 + (h % 3 + k) % 3)];
+    };
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      const Index o = opposite[static_cast<std::size_t>(h)];
+      std::vector<std::uint32_t> expected = ring_sums(mesh);
+      const std::vector<std::uint32_t> before = expected;
+      if (!mesh.flip(h)) {
+        EXPECT_EQ(ring_sums(mesh), before);
+        continue;
+      }
+      const auto sum = [&](Index v) -> std::uint32_t& {
+        return expected[static_cast<std::size_t>(v)];
+      };
+      const auto number = [](Index v) { return static_cast<std::uint32_t>(v); };
+      const Index a = corner(h, 0);
+      const Index b = corner(h, 1);
+      const Index c = corner(h, 2);
+      const Index d = corner(o, 2);
+      sum(a) -= number(b);
+      sum(b) -= number(a);
+      sum(c) += number(d);
+      sum(d) += number(c);
+      EXPECT_EQ(ring_sums(mesh), expected) << h;
+      EXPECT_EQ(mesh.boundary_loop_count(), loops) << h;
+      // Three times more: the half-edge is where it was.
+      for (int i = 0; i < 3; ++i) EXPECT_TRUE(mesh.flip(h));
+      EXPECT_EQ(ring_sums(mesh), before) << h;
+    }
+  }
+}
+
+TYPED_TEST(BaselineEdits, CollapseWhatWasSplit) {
+  for (const Soup& soup : shapes_to_edit()) {
+    TypeParam mesh(soup.face_list(), soup.positions());
+    const TypeParam before(soup.face_list(), soup.positions());
+    const Index old_vertices = mesh.vertex_count();
+    const Index old_faces = mesh.face_count();
+    for (Index f = 0; f < old_faces; ++f) mesh.split_face(f);
+    EXPECT_EQ(mesh.vertex_count(), old_vertices + old_faces);
+    EXPECT_EQ(mesh.face_count(), 3 * old_faces);
+    for (Index v = old_vertices; v < old_vertices + old_faces; ++v) mesh.collapse(v);
+    mesh.compact();
+    EXPECT_EQ(mesh.vertex_count(), before.vertex_count());
+    EXPECT_EQ(mesh.halfedge_count(), before.halfedge_count());
+    EXPECT_EQ(mesh.face_count(), before.face_count());
+    EXPECT_EQ(ring_sums(mesh), ring_sums(before));
+    EXPECT_EQ(mesh.boundary_loop_count(), before.boundary_loop_count());
+    EXPECT_EQ(mesh.component_count(), before.component_count());
+  }
+}
+
+// A vertex with more than three neighbours, whose edges are moved to the one that is kept.
+TYPED_TEST(BaselineEdits, CollapseInOneSphere) {
+  const Soup soup = *shapes::icosphere(1);
+  TypeParam mesh(soup.face_list(), soup.positions());
+  mesh.collapse(0);
+  mesh.compact();
+  EXPECT_EQ(mesh.vertex_count(), soup.vertex_count() - 1);
+  EXPECT_EQ(mesh.face_count(), soup.face_count() - 2);
+  EXPECT_EQ(mesh.halfedge_count(), 3 * mesh.face_count());
+  EXPECT_EQ(mesh.boundary_loop_count(), 0);
+  EXPECT_EQ(mesh.component_count(), 1);
+  const std::vector<Index> opposite = mesh.opposite();
+  for (std::size_t h = 0; h < opposite.size(); ++h) {
+    EXPECT_EQ(opposite[static_cast<std::size_t>(opposite[h])], static_cast<Index>(h));
   }
 }
 

@@ -30,6 +30,8 @@ typename Mesh::Vertex split_face(Mesh& mesh, typename Mesh::Face f, const float*
     mesh.link(out, h);
     mesh.set_face(h, face);
     mesh.set_first(face, h);
+    // What follows a half-edge on the boundary begins the fan where that ends.
+    if (!mesh.is_valid(mesh.opposite(h))) mesh.set_outgoing(mesh.vertex(after), in);
     if (h == start) {
       first_out = out;
     } else {
@@ -74,8 +76,13 @@ void flip(Mesh& mesh, typename Mesh::Handle h) {
   const auto b = mesh.vertex(o);
   if (mesh.outgoing(a) == h) mesh.set_outgoing(a, o_next);
   if (mesh.outgoing(b) == o) mesh.set_outgoing(b, h_next);
-  mesh.set_vertex(h, mesh.vertex(o_prev));
-  mesh.set_vertex(o, mesh.vertex(h_prev));
+  const auto left = mesh.vertex(h_prev);
+  const auto right = mesh.vertex(o_prev);
+  // What follows a half-edge on the boundary begins the fan where that ends.
+  if (!mesh.is_valid(mesh.opposite(h_next))) mesh.set_outgoing(left, o);
+  if (!mesh.is_valid(mesh.opposite(o_next))) mesh.set_outgoing(right, h);
+  mesh.set_vertex(h, right);
+  mesh.set_vertex(o, left);
   mesh.link(h, h_prev);
   mesh.link(h_prev, o_next);
   mesh.link(o_next, h);
