@@ -12,6 +12,8 @@ import pathlib
 import re
 import sys
 
+from perf_imr import IMR, PREFIX, datasets
+from perf_imr import ROWS as SIX_TESTS
 from perf_results import FOLDER, read_counts, read_results
 from perf_tables import ELEMENTS, SINGULAR, SWEPT
 
@@ -20,6 +22,7 @@ ORDERS = {"grid": "#1b6ca8", "scan": "#d1730b", "shuffled": "#2e8b57"}
 OPERATION_COLOURS = dict(zip(SWEPT + ("components", "boundary_loops"),
                              ("#1b6ca8", "#d1730b", "#2e8b57", "#8a3fa0", "#b3261e", "#6b6b6b",
                               "#b89b00")))
+LIBRARY_COLOURS = {"pointer": "#6b6b6b", "struct": "#b89b00", "openmesh": "#1b6ca8", "cgal": "#b3261e"}
 MISSING = 77
 VERSION = re.compile(r"<!-- matplotlib (\S+) -->")
 WINDOW_LIMIT = 45  # scans a face; the builder's own constant
@@ -168,8 +171,33 @@ def strategy(pyplot, results, _counts):
     return figure
 
 
+def six_tests(pyplot, _results, _counts):
+    """How many times as long each library takes, on each mesh, as Hedgerow on one thread."""
+    results = read_results(IMR)
+    meshes = datasets(results)
+    figure, panels, spare = grid_of_panels(pyplot, len(SIX_TESTS))
+    for axis, test in zip(panels, SIX_TESTS):
+        for place, mesh in enumerate(meshes):
+            mine = results.get(f"{PREFIX}{test}/{mesh}/1")
+            for offset, (library, colour) in enumerate(LIBRARY_COLOURS.items()):
+                other = results.get(f"{PREFIX}{test}/{mesh}/1/{library}")
+                if mine and other:
+                    axis.plot([other.ns / mine.ns], [place + 0.15 * (offset - 1.5)], "o", markersize=5,
+                              color=colour, label=library if place == 0 else None)
+        axis.axvline(1, color="#444444", linewidth=1)
+        axis.set_xscale("log")
+        axis.set_yticks(range(len(meshes)), meshes)
+        axis.invert_yaxis()
+        axis.set_title(test)
+        axis.set_xlabel("times as long as Hedgerow")
+        axis.grid(True, axis="x", which="both", color="#e4e4e4", linewidth=0.5)
+    panels[0].legend(fontsize=7)
+    assert not spare
+    return figure
+
+
 DRAWN = {"speed_over_size": speed_over_size, "share_over_threads": share_over_threads,
-         "roofline": roofline, "strategy": strategy}
+         "roofline": roofline, "strategy": strategy, "six_tests": six_tests}
 
 
 def draw(function, results, counts):

@@ -7,7 +7,9 @@
   perf_table.py --representations PROG [--rounds 3]
       the same for what all representations are asked: bench/results/representations.json
   perf_table.py --planar PROG [--rounds 5]
-      the same for triangulations, flips and decimation: bench/results/planar.json
+      the same for triangulations, flips, decimation and subdivision: bench/results/planar.json
+  perf_table.py --imr PROG [--mesh FILE]... [--rounds 5]
+      the same for the six tests of the IMR 2011 suite: bench/results/imr.json
   perf_table.py --frames build/release/bench/hedgerow_frames [--part NAME]... [--mesh DRAGON]
       the same for frames of a ray tracer: bench/results/frames.json, of which each part takes up
       to three minutes; without --part all that need no mesh, or with --mesh all that do
@@ -28,6 +30,7 @@ import tempfile
 
 from perf_frames import FRAMES, MESH_PARTS, PARTS, frame_tables, frame_targets
 from perf_frames import read_frames, with_part
+from perf_imr import IMR, imr_tables
 from perf_planar import PATTERN, PLANAR, planar_tables
 from perf_representations import REPRESENTATIONS, read_representations, representation_tables
 from perf_results import FOLDER, Results, merge, read_counts, read_results, write_document
@@ -66,6 +69,7 @@ def main(arguments):
     parser.add_argument("--targets", metavar="PROGRAM")
     parser.add_argument("--representations", metavar="PROGRAM")
     parser.add_argument("--planar", metavar="PROGRAM")
+    parser.add_argument("--imr", metavar="PROGRAM")
     parser.add_argument("--frames", metavar="PROGRAM")
     parser.add_argument("--part", action="append", choices=[*PARTS, *MESH_PARTS],
                         help="of the frames, which to measure")
@@ -75,6 +79,7 @@ def main(arguments):
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS)
     parser.add_argument("--answers", type=pathlib.Path, default=REPRESENTATIONS)
     parser.add_argument("--flat", type=pathlib.Path, default=PLANAR, help="results of --planar")
+    parser.add_argument("--six", type=pathlib.Path, default=IMR, help="results of --imr")
     parser.add_argument("--drawn", type=pathlib.Path, default=FRAMES)
     parser.add_argument("--perf", type=pathlib.Path, default=PERF)
     parser.add_argument("--readme", type=pathlib.Path, default=README)
@@ -96,6 +101,8 @@ def main(arguments):
     if options.planar:
         flat = run(options.planar, ["--rounds", str(options.rounds), "--filter", PATTERN])
         write_document(flat, options.flat)
+    if options.imr:
+        write_document(run(options.imr, ["--imr", *measured]), options.six)
     if options.frames:
         record_frames(options)
     return write_pages(options)
@@ -116,10 +123,10 @@ def write_pages(options):
     """Rewrites or checks each page; returns the exit status."""
     results, counts = read_results(options.results), read_counts()
     answers, frames = read_representations(options.answers), read_frames(options.drawn)
-    flat = read_results(options.flat)
+    flat, six = read_results(options.flat), read_results(options.six)
     drawn = {"frames-targets": targets_table(frame_targets()), **frame_tables()}
     pages = {options.perf: [(results, all_tables()), (answers, representation_tables()),
-                            (flat, planar_tables()), (frames, drawn)],
+                            (flat, planar_tables()), (six, imr_tables()), (frames, drawn)],
              options.readme: [(results, readme_tables())]}
     status = 0
     for page, parts in pages.items():

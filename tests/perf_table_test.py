@@ -3,63 +3,21 @@
 
 import json
 import pathlib
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "bench"))
+from perf_support import NO_COUNTS, bandwidth, document, entry, line_of, results, verdict_of
 
-import count  # noqa: E402
-import perf_format  # noqa: E402
-import perf_frames  # noqa: E402
-import perf_planar  # noqa: E402
-import perf_representations  # noqa: E402
-import perf_results  # noqa: E402
-import perf_table  # noqa: E402
-import perf_tables  # noqa: E402
-import perf_targets  # noqa: E402
-
-NO_COUNTS = {"context": {}, "rows": []}
-
-
-def entry(name, milliseconds, **more):
-    times = milliseconds if isinstance(milliseconds, list) else [milliseconds]
-    return {"name": name, "times_ns": [1e6 * time for time in times], "processor_ns": 1e6 * times[0],
-            "halfedges": 12_000_000, "vertices": 2_000_000, "faces": 4_000_000,
-            "mesh_bytes": 104_000_000, "read": 60_000_000, "written": 40_000_000, "mix": "copy",
-            "gb_per_s": {"copy": 10.0, "copy-streaming": 20.0}, **more}
-
-
-def bandwidth(mix, threads, **rates):
-    return {"name": f"bandwidth/{mix}/3MiB/{threads}", "mix": mix, "gb_per_s": rates}
-
-
-def document(*rows):
-    context = {"cpu": "a processor", "caches": [{"type": "Data", "level": 1, "bytes": 32768,
-                                                 "sharing": 1}]}
-    return {"context": context, "rows": list(rows)}
-
-
-def results(*rows):
-    return perf_results.Results(document(*rows))
-
-
-def line_of(table, start):
-    """The cells, by their heads, of the one line of a table whose first cells are `start`."""
-    prefix = "| " + " | ".join(start) + " |"
-    lines = [line for line in table.splitlines() if line.startswith(prefix)]
-    assert len(lines) == 1, (start, table)
-    cells, heads = ([cell.strip() for cell in line.strip("|").split("|")]
-                    for line in (lines[0], table.splitlines()[0]))
-    return dict(zip(heads, cells))
-
-
-def verdict_of(targets, title, *rows, counts=None):
-    found = [(value, verdict) for target, value, verdict
-             in perf_targets.evaluate(targets, results(*rows), counts or NO_COUNTS)
-             if target.title.startswith(title)]
-    assert len(found) == 1, title
-    return found[0]
+import count
+import perf_format
+import perf_frames
+import perf_imr
+import perf_planar
+import perf_representations
+import perf_results
+import perf_table
+import perf_tables
+import perf_targets
 
 
 class ResultsOfARun(unittest.TestCase):
@@ -230,126 +188,6 @@ totals: 147 15 3 1
         self.assertEqual(row["functions"], {"check_triangle_runs": 107, "link": 40})
 
 
-class Representations(unittest.TestCase):
-    def answers(self):
-        def row(question, kind, milliseconds, **more):
-            return entry(f"represent_{question}/grid/10k/1/{kind}", milliseconds, elements=1e6, **more)
-        return results(row("build", "flat", 3, bytes_per_edge=17.5),
-                       row("build", "dcel", 6, bytes_per_edge=43.0),
-                       row("ring_vertices", "flat", [9, 7, 8]), row("ring_vertices", "dcel", 4))
-
-    def test_sets_the_least_of_each_question_in_bold(self):
-        lines = perf_representations.comparison_table("grid", "10k")(self.answers(), NO_COUNTS)
-        flat = list(perf_representations.KINDS).index("flat")
-        dcel = list(perf_representations.KINDS).index("dcel")
-
-        def cells(title):
-            line = next(line for line in lines.splitlines() if line.startswith(f"| {title} |"))
-            return [cell.strip() for cell in line.split("|")[2:-1]]
-        self.assertEqual(cells("bytes an edge")[flat], "**17.5**")
-        self.assertEqual(cells("build, edge")[dcel], "6.00")
-        self.assertEqual(cells("neighbours, vertex")[flat], "8.00")
-        self.assertEqual(cells("neighbours, vertex")[dcel], "**4.00**")
-        self.assertEqual(set(cells("genus, edge")), {""})
-
-    def test_another_size_or_order_is_another_table(self):
-        other = perf_representations.comparison_table("shuffled", "10k")(self.answers(), NO_COUNTS)
-        self.assertNotIn("8.00", other)
-
-
-class Planar(unittest.TestCase):
-    def found(self):
-        return results(entry("triangulate/points/2M/1", 400, points=1_000_000),
-                       entry("triangulate/points/2M/1/cgal", 800, points=1_000_000),
-                       entry("flip/points/20k/1", 2, flips=10_000),
-                       entry("build/grid/4M/1", 20))
-
-    def test_rates_are_elements_by_time(self):
-        table = perf_planar.planar_table(self.found(), NO_COUNTS)
-        self.assertIn("| triangulate/points/2M | 1 | 400 | 0 % | points | 2.50 |", table)
-        self.assertIn("| flip/points/20k | 1 | 2.00 | 0 % | flips | 5.00 |", table)
-        self.assertNotIn("build", table)
-
-    def test_targets_are_judged(self):
-        lines = perf_tables.targets_table(perf_planar.PLANAR_TARGETS)(
-            self.found(), NO_COUNTS).splitlines()
-        self.assertTrue(lines[2].endswith("| 2.50 M points/s | moonshot |"))
-        self.assertTrue(lines[3].endswith("| 2.00 x | met |"))
-        self.assertTrue(lines[4].endswith("| 5.00 M flips/s | **missed** |"))
-        self.assertTrue(lines[5].endswith("|  | not measured |"))
-
-
-class FramesOfARayTracer(unittest.TestCase):
-    LOOP = perf_frames.MAIN_LOOP
-
-    @staticmethod
-    def row(part, stage, what, variant, value, unit="ms", note=""):
-        return {"part": part, "stage": stage, "what": what, "variant": variant, "value": value,
-                "unit": unit, "note": note}
-
-    def frames(self, *rows):
-        return perf_frames.Frames({"context": {}, "rows": list(rows)})
-
-    def verdict_of(self, title, *rows):
-        found = [(value, verdict) for target, value, verdict
-                 in perf_targets.evaluate(perf_frames.frame_targets(), self.frames(*rows), NO_COUNTS)
-                 if target.title.startswith(title)]
-        self.assertEqual(len(found), 1, title)
-        return found[0]
-
-    def test_are_set_beside_normals_of_openmesh_and_a_tree_built_anew(self):
-        rows = (self.row("dragon-100", "S6", self.LOOP, "normals", 4),
-                self.row("dragon-100", "S6", self.LOOP, "refit", 16),
-                self.row("dragon-100", "S6", "100% moved, normals", "openmesh", 20),
-                self.row("dragon-100", "S6", "100% moved, tree built anew", "openmesh", 30))
-        self.assertEqual(self.verdict_of("dragon: normals and refit", *rows), (2.5, "**missed**"))
-        self.assertEqual(self.verdict_of("dragon: normals and refit", *rows[1:]),
-                         (None, "not measured"))
-
-    def test_may_not_allocate_at_all(self):
-        rows = [self.row("small-1", "S6", self.LOOP, "allocations", 0),
-                self.row("small-100", "S6", self.LOOP, "allocations", 1e-4)]
-        self.assertEqual(self.verdict_of("allocations", *rows), (1e-4, "**missed**"))
-        self.assertEqual(self.verdict_of("allocations", rows[0]), (0, "moonshot"))
-
-    def test_leave_five_microseconds_to_a_blob(self):
-        rows = (self.row("terrain", "S2", "1% moved, area", "1 thread", 0.305),
-                self.row("terrain", "S2", "gather, area", "1 thread", 10))
-        value, verdict = self.verdict_of("terrain: normals after", *rows)
-        self.assertAlmostEqual(value, 3)
-        self.assertEqual(verdict, "**missed**")
-
-    def test_show_the_share_of_each_stage(self):
-        rows = [self.row("small-1", "S6", self.LOOP, name, 1, note="5 frames")
-                for name in (*perf_frames.TIMES, *perf_frames.PARTS_OF_A_FRAME)]
-        rows.append(self.row("small-1", "S6", self.LOOP, "allocations", 0,
-                             note="and 5 by Embree, for 5 commits"))
-        lines = perf_frames.stages_table(self.frames(*rows), NO_COUNTS)
-        cells = line_of(lines, ["terrain, 200k triangles", self.LOOP])
-        self.assertEqual((cells["refit, ms"], cells["by Embree in all"]), ("1.00 (20 %)", "5"))
-
-    def test_set_the_least_of_each_question_in_bold(self):
-        rows = [self.row("dragon", "S5", "one-ring", who, value, "ns/hit")
-                for who, value in (("hedgerow", 20), ("cgal", 30))]
-        rows.append(self.row("dragon", "S5", "two-ring", "hedgerow", 90, "ns/hit"))
-        table = perf_frames.frame_tables()["frames-hits-dragon"](self.frames(*rows), NO_COUNTS)
-        self.assertIn("| one-ring | **20.0** | 30.0 |", table)
-        self.assertIn("| two-ring | 90.0 |  |", table)
-
-    def test_of_one_part_are_replaced_and_wrong_ones_refused(self):
-        before = self.frames(self.row("terrain", "S5", "one-ring", "hedgerow", 1),
-                             self.row("dragon", "S5", "one-ring", "hedgerow", 2))
-        row = {"stage": "S5", "what": "one-ring", "variant": "hedgerow", "value": 3, "unit": "ns/hit",
-               "note": ""}
-        after = perf_frames.Frames(perf_frames.with_part(
-            before, "dragon", {"context": {"mesh": "x"}, "failed": [], "rows": [row]}))
-        self.assertEqual([after.get(part, "one-ring", "hedgerow") for part in ("terrain", "dragon")],
-                         [1, 3])
-        self.assertNotIn("mesh", after.context)
-        with self.assertRaises(SystemExit):
-            perf_frames.with_part(before, "dragon", {"context": {}, "failed": ["S5"], "rows": []})
-
-
 class Rewrite(unittest.TestCase):
     def text(self, names):
         return "".join(f"prose of {name}\n<!-- table:{name} begin -->\nold\n"
@@ -376,7 +214,7 @@ class Rewrite(unittest.TestCase):
             stored = pathlib.Path(folder) / "results.json"
             perf_results.write_document(document(entry("build/grid/4M/1", 20)), stored)
             names = [*perf_tables.all_tables(), *perf_representations.representation_tables(),
-                     *perf_planar.planar_tables(),
+                     *perf_planar.planar_tables(), *perf_imr.imr_tables(),
                      "frames-targets", *perf_frames.frame_tables()]
             perf.write_text(self.text(names), encoding="utf-8")
             readme = pathlib.Path(folder) / "README.md"
