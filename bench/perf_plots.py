@@ -173,6 +173,7 @@ def strategy(pyplot, results, _counts):
 
 def six_tests(pyplot, _results, _counts):
     """How many times as long each library takes, on each mesh, as Hedgerow on one thread."""
+    from matplotlib import ticker
     results = read_results(IMR)
     meshes = datasets(results)
     figure, panels, spare = grid_of_panels(pyplot, len(SIX_TESTS))
@@ -185,7 +186,9 @@ def six_tests(pyplot, _results, _counts):
                     axis.plot([other.ns / mine.ns], [place + 0.15 * (offset - 1.5)], "o", markersize=5,
                               color=colour, label=library if place == 0 else None)
         axis.axvline(1, color="#444444", linewidth=1)
-        axis.set_xscale("log")
+        axis.set_xscale("log", base=2)
+        axis.set_xlim(0.1, 12)
+        axis.xaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
         axis.set_yticks(range(len(meshes)), meshes)
         axis.invert_yaxis()
         axis.set_title(test)
