@@ -56,6 +56,7 @@ int count_cases(const std::string& filter) {
       ++error_count;
       continue;
     }
+    if (work.setup) work.setup();
     count(benchmark.name(), work);
     if (work.cleanup) work.cleanup();
     print(benchmark, data);

@@ -55,6 +55,7 @@ const Prepared& prepare(const Case& benchmark, bool is_checked) {
   last.work = benchmark.prepare(dataset(benchmark.data), execution_with(benchmark.threads));
   last.answer = first_answer(last.work, is_checked);
   if (!last.answer.error.empty()) return last;
+  if (last.work.setup) last.work.setup();
   last.memory = memory_use_of(last.work.run);
   if (last.work.cleanup) last.work.cleanup();
   return last;
@@ -85,6 +86,7 @@ void measure(benchmark::State& state, const Case& benchmark, bool is_checked) tr
   double processor_seconds = 0;
   double injected_seconds = 0;
   for (auto _ : state) {
+    if (work.setup) work.setup();
     const double processor_start = processor_time();
     const Clock::time_point start = Clock::now();
     work.run();

@@ -90,10 +90,11 @@ struct Subject {
         break;
     }
   }
-  /// As it was before the row changed it.
+  /// As it was before the row changed it. A mesh with other faces is freed, and made anew before
+  /// the next run: a dozen of them beside each other would be what is measured.
   void renew() {
     if (row == ImrRow::barycenter || row == ImrRow::smoothing) mesh->move_to(input.positions);
-    if (row == ImrRow::subdivision || row == ImrRow::collapse) make();
+    if (row == ImrRow::subdivision || row == ImrRow::collapse) mesh.reset();
   }
   [[nodiscard]] std::string check(const Dataset& data) const {
     switch (row) {
@@ -136,6 +137,10 @@ Work prepare(const Dataset& data, const Execution& execution, ImrRow row, const 
     work.error = "refuses a face of this mesh; not measured";
     return work;
   }
+  subject->renew();
+  work.setup = [subject] {
+    if (!subject->mesh) subject->make();
+  };
   work.run = [subject] { subject->run(); };
   work.cleanup = [subject] { subject->renew(); };
   work.check = [subject, &data] { return subject->check(data); };

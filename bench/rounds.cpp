@@ -85,6 +85,7 @@ struct Contender {
     double seconds = 0;
     double processor_seconds = 0;
     for (int i = 0; i < batch; ++i) {
+      if (work.setup) work.setup();
       const double processor_start = processor_time();
       const Clock::time_point start = Clock::now();
       work.run();
@@ -174,6 +175,7 @@ class Group {
   // The checked run was the first; a fast case is timed once more to know how often to repeat it.
   static void warm_up(Contender& contender) {
     if (!contender.row.error.empty()) return;
+    if (contender.work.setup) contender.work.setup();
     const Clock::time_point start = Clock::now();
     contender.work.run();
     const double seconds = seconds_since(start);

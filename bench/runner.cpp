@@ -61,6 +61,7 @@ void add(Case benchmark) { mutable_cases().push_back(std::move(benchmark)); }
 Answer first_answer(const Work& work, bool is_checked) {
   Answer answer{work.error, 0, {}};
   if (!answer.error.empty()) return answer;
+  if (work.setup) work.setup();
   work.run();
   if (is_checked) answer.error = work.check();
   answer.digest = work.digest();

@@ -18,6 +18,7 @@ using Notes = std::map<std::string, double>;
 
 /// The work of one benchmark, ready to be timed.
 struct Work {
+  std::function<void()> setup;    ///< not timed, before each run; may be empty
   std::function<void()> run;      ///< timed
   std::function<void()> cleanup;  ///< not timed, after each run; may be empty
 
