@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "closed_columns.h"
 #include "kernels/boundary_columns.h"
 #include "kernels/materialise.h"
 #include "parallel/parallel.h"
@@ -108,12 +109,9 @@ void fill_loop(const Mesh& mesh, const Holes& holes, Index loop, const BoundaryR
 }
 
 template <Topology Mesh>
-ConnectivityColumns close(const Connectivity& owner, const Mesh& mesh, const Holes& holes,
-                          const Execution& execution) {
+detail::ClosedColumns close(const Connectivity& owner, const Mesh& mesh, const Holes& holes,
+                            const Execution& execution) {
   const std::size_t size = at(mesh.halfedge_count()) + holes.sides.size();
-  ConnectivityColumns columns;
-  columns.form = Form::closed;
-  columns.all_triangles = owner.is_triangle_mesh();
   FaceBuffers faces = face_buffers(owner, size, execution);
   Buffer<Index> origin = extended(owner.origin(), size);
   Buffer<Index> opposite = extended(owner.opposite(), size);
@@ -128,17 +126,24 @@ ConnectivityColumns close(const Connectivity& owner, const Mesh& mesh, const Hol
   par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
     kernels::gather_closed_outgoing(range, mesh, opposite.data(), outgoing.data());
   });
-  columns.fans = Buffer<FanStart>::copy_of(owner.fans());
-  for (FanStart& fan : columns.fans) {
-    fan.start = kernels::closed_start(mesh, fan.start, opposite.data());
-  }
-  columns.origin = std::move(origin);
-  columns.opposite = std::move(opposite);
-  columns.outgoing = std::move(outgoing);
-  columns.next = std::move(faces.next);
-  columns.face = std::move(faces.face);
-  columns.first = std::move(faces.first);
-  return columns;
+  auto fans = Buffer<FanStart>::copy_of(owner.fans());
+  for (FanStart& fan : fans) fan.start = kernels::closed_start(mesh, fan.start, opposite.data());
+  return {std::move(origin),     std::move(opposite),    std::move(outgoing), std::move(faces.next),
+          std::move(faces.face), std::move(faces.first), std::move(fans)};
+}
+
+detail::ClosedColumns copy_of_closed(const Connectivity& mesh) {
+  const PolygonView view = mesh.polygons();
+  const auto copy = [](const auto& column) {
+    return Buffer<Index>::copy_of({column.data(), at(column.size())});
+  };
+  return {copy(view.origin),
+          copy(view.opposite),
+          copy(view.outgoing),
+          copy(view.next_of),
+          copy(view.face_of),
+          copy(view.first_of),
+          Buffer<FanStart>::copy_of(mesh.fans())};
 }
 
 // One fan of a vertex in the default form, by its smallest half-edge.
@@ -224,17 +229,35 @@ Index find_not_openable(const PolygonView& mesh, const Execution& execution) {
 
 }  // namespace
 
-Result<Connectivity> close_boundary(const Connectivity& mesh, const Execution& execution) {
-  if (mesh.form() == Form::closed) return fail({ErrorCode::already_closed});
-  return mesh.visit([&](const auto& view) -> Result<Connectivity> {
+Result<detail::ClosedColumns> detail::closed_columns(const Connectivity& mesh,
+                                                     const Execution& execution) {
+  if (mesh.form() == Form::closed) return copy_of_closed(mesh);
+  return mesh.visit([&](const auto& view) -> Result<ClosedColumns> {
     const Holes holes = find_holes(view);
     const std::int64_t count =
         mesh.halfedge_count() + static_cast<std::int64_t>(holes.sides.size());
     if (count > kMaxCount) {
       return fail({ErrorCode::too_many_elements, kInvalidIndex, count, kMaxCount});
     }
-    return Connectivity(close(mesh, view, holes, execution));
+    return close(mesh, view, holes, execution);
   });
+}
+
+Result<Connectivity> close_boundary(const Connectivity& mesh, const Execution& execution) {
+  if (mesh.form() == Form::closed) return fail({ErrorCode::already_closed});
+  auto closed = detail::closed_columns(mesh, execution);
+  if (!closed) return fail(closed.error());
+  ConnectivityColumns columns;
+  columns.form = Form::closed;
+  columns.all_triangles = mesh.is_triangle_mesh();
+  columns.fans = std::move(closed->fans);
+  columns.origin = std::move(closed->origin);
+  columns.opposite = std::move(closed->opposite);
+  columns.outgoing = std::move(closed->outgoing);
+  columns.next = std::move(closed->next);
+  columns.face = std::move(closed->face);
+  columns.first = std::move(closed->first);
+  return Connectivity(std::move(columns));
 }
 
 Result<Connectivity> open_boundary(const Connectivity& mesh, const Execution& execution) {

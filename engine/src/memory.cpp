@@ -48,6 +48,15 @@ void* allocate_bytes(std::size_t bytes) {
 
 void free_bytes(void* memory) noexcept { std::free(memory); }
 
+void prefer_huge_pages(void* memory, std::size_t bytes) noexcept {
+  if (bytes < 2 * kHugePage || !wants_huge_pages()) return;
+  std::size_t size = bytes;
+  if (std::align(kHugePage, kHugePage, memory, size) == nullptr) return;
+#if defined(__linux__)
+  (void)madvise(memory, size / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
+}
+
 }  // namespace detail
 
 Workspace::Workspace(std::span<std::byte> memory) noexcept : is_fixed_(true) {

@@ -16,6 +16,8 @@ namespace detail {
 /// "off" at the first call. Throws std::bad_alloc. Null for 0 bytes.
 [[nodiscard]] void* allocate_bytes(std::size_t bytes);
 void free_bytes(void* memory) noexcept;
+/// Asks for huge pages in memory of another origin that has not been written yet.
+void prefer_huge_pages(void* memory, std::size_t bytes) noexcept;
 }  // namespace detail
 
 /// Bytes behind the last element of every `Buffer` that may be read (not written): a 16-byte load
@@ -87,22 +89,6 @@ class Buffer {
  private:
   T* data_ = nullptr;
   std::size_t size_ = 0;
-};
-
-/// The same memory for a `std::vector`, where a column has to grow.
-template <class T>
-struct BufferAllocator {
-  using value_type = T;
-
-  BufferAllocator() noexcept = default;
-  template <class U>
-  explicit BufferAllocator(const BufferAllocator<U>&) noexcept {}
-
-  [[nodiscard]] T* allocate(std::size_t count) {
-    return static_cast<T*>(detail::allocate_bytes(count * sizeof(T)));
-  }
-  void deallocate(T* memory, std::size_t) noexcept { detail::free_bytes(memory); }
-  friend bool operator==(const BufferAllocator&, const BufferAllocator&) noexcept { return true; }
 };
 
 }  // namespace hedgerow

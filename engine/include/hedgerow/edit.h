@@ -7,10 +7,10 @@
 
 #include <tl/expected.hpp>
 
-#include "hedgerow/buffer.h"
 #include "hedgerow/change.h"
 #include "hedgerow/connectivity.h"
 #include "hedgerow/execution.h"
+#include "hedgerow/growing_column.h"
 #include "hedgerow/index.h"
 #include "hedgerow/result.h"
 #include "hedgerow/topology.h"
@@ -157,7 +157,12 @@ class EditMesh {
   [[nodiscard]] bool has(FaceId f) const noexcept {
     return is_index(f.value, first_) && first_[at(f.value)] != kInvalidIndex;
   }
-  [[nodiscard]] EditView view() const noexcept;
+  [[nodiscard]] EditView view() const noexcept {
+    return {{origin_.data(), halfedge_count()}, {opposite_.data(), halfedge_count()},
+            {outgoing_.data(), vertex_count()}, {next_.data(), halfedge_count()},
+            {prev_.data(), halfedge_count()},   {face_.data(), halfedge_count()},
+            {first_.data(), face_count()},      fans_};
+  }
   /// The half-edge from `a` to `b`, invalid if there is none. O(valence of a).
   [[nodiscard]] HalfedgeId find(VertexId a, VertexId b) const noexcept;
 
@@ -250,26 +255,23 @@ class EditMesh {
  private:
   friend class Edit;
 
-  /// Grows, in huge pages where the system has them: edits hop through it.
-  using EditedColumn = std::vector<Index, BufferAllocator<Index>>;
-
   static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-  static Index size(const EditedColumn& column) noexcept {
+  static Index size(const GrowingColumn& column) noexcept {
     return static_cast<Index>(column.size());
   }
-  static bool is_index(Index i, const EditedColumn& column) noexcept {
+  static bool is_index(Index i, const GrowingColumn& column) noexcept {
     return i >= 0 && i < size(column);
   }
-  [[nodiscard]] EditedColumn& column(EditColumn which) noexcept;
+  [[nodiscard]] GrowingColumn& column(EditColumn which) noexcept;
 
-  EditedColumn origin_;
-  EditedColumn opposite_;
-  EditedColumn next_;  // -1: removed
-  EditedColumn prev_;
-  EditedColumn face_;
-  EditedColumn outgoing_;
-  EditedColumn is_gone_;  // of a vertex; one without edges has no other mark
-  EditedColumn first_;    // -1: removed
+  GrowingColumn origin_;
+  GrowingColumn opposite_;
+  GrowingColumn next_;  // -1: removed
+  GrowingColumn prev_;
+  GrowingColumn face_;
+  GrowingColumn outgoing_;
+  GrowingColumn is_gone_;  // of a vertex; one without edges has no other mark
+  GrowingColumn first_;    // -1: removed
   std::vector<FanStart> fans_;
   Form form_ = Form::open;  // to go back to
   bool is_recording_ = true;

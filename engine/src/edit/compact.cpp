@@ -1,6 +1,9 @@
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "edit/edit.h"
+#include "kernels/prefetch.h"
 #include "represent/forms.h"
 #include "represent/number_halfedges.h"
 
@@ -62,9 +65,124 @@ class LiveSource {
   Index vertex_count_ = 0;
 };
 
+// So many ids, none of them valid yet.
+template <class Id>
+std::vector<Id> no_ids(Index count) {
+  std::vector<Id> ids;
+  ids.reserve(static_cast<std::size_t>(count));
+  detail::prefer_huge_pages(ids.data(), ids.capacity() * sizeof(Id));
+  ids.resize(static_cast<std::size_t>(count));
+  return ids;
+}
+
+/// What `compact` gives, for triangles in the default form, in passes that search for no order: the
+/// half-edges of face f are 3f, 3f + 1 and 3f + 2, and those of the boundary go.
+class TriangleCompaction {
+ public:
+  explicit TriangleCompaction(const EditMesh& mesh) : mesh_(mesh), view_(mesh.view()) {}
+
+  /// Nothing if some face is none, an edge dangles or a vertex has several fans.
+  std::optional<Compacted> run() {
+    if (!view_.fans.empty() || !number_faces()) return {};
+    const Index vertex_count = number_vertices();
+    const Index boundary_count = fill_corners();
+    Index halfedge_count = 0;
+    for (Index h = 0; h < view_.halfedge_count(); ++h) {
+      halfedge_count += Index{view_.next_of.data()[h] >= 0};
+    }
+    if (halfedge_count != columns_.origin.size() + boundary_count) return {};
+    if (fill_outgoing(vertex_count) != boundary_count) return {};
+    columns_.all_triangles = true;
+    return Compacted{Connectivity(std::move(columns_)), std::move(maps_)};
+  }
+
+ private:
+  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+  bool number_faces() {
+    maps_.faces = no_ids<FaceId>(view_.face_count());
+    maps_.halfedges = no_ids<HalfedgeId>(view_.halfedge_count());
+    Index count = 0;
+    for (Index f = 0; f < view_.face_count(); ++f) {
+      kernels::prefetch_ahead(view_.first_of.data() + f);
+      const HalfedgeId h = view_.first(FaceId(f));
+      if (!h.valid()) continue;
+      const HalfedgeId n = view_.next(h);
+      const HalfedgeId p = view_.next(n);
+      if (view_.next(p) != h) return false;
+      kernels::prefetch_ahead(view_.next_of.data() + h.value);
+      maps_.faces[at(f)] = FaceId(count);
+      maps_.halfedges[at(h.value)] = HalfedgeId(3 * count);
+      maps_.halfedges[at(n.value)] = HalfedgeId(3 * count + 1);
+      maps_.halfedges[at(p.value)] = HalfedgeId(3 * count + 2);
+      ++count;
+    }
+    face_count_ = count;
+    return true;
+  }
+
+  Index number_vertices() {
+    maps_.vertices = no_ids<VertexId>(view_.vertex_count());
+    Index count = 0;
+    for (Index v = 0; v < view_.vertex_count(); ++v) {
+      if (mesh_.has(VertexId(v))) maps_.vertices[at(v)] = VertexId(count++);
+    }
+    return count;
+  }
+
+  // Returns the number of half-edges on the boundary.
+  Index fill_corners() {
+    Buffer<Index> origin(3 * at(face_count_));
+    Buffer<Index> opposite(3 * at(face_count_));
+    Index boundary_count = 0;
+    std::size_t to = 0;
+    for (Index f = 0; f < view_.face_count(); ++f) {
+      HalfedgeId h = view_.first(FaceId(f));
+      if (!h.valid()) continue;
+      kernels::prefetch_ahead(view_.origin.data() + h.value);
+      kernels::prefetch_ahead(view_.opposite.data() + h.value);
+      for (int corner = 0; corner < 3; ++corner, ++to, h = view_.next(h)) {
+        origin[to] = maps_.vertices[at(view_.origin[h].value)].value;
+        opposite[to] = maps_.halfedges[at(view_.opposite[h].value)].value;
+        boundary_count += Index{opposite[to] < 0};
+      }
+    }
+    columns_.origin = std::move(origin);
+    columns_.opposite = std::move(opposite);
+    return boundary_count;
+  }
+
+  // Returns the number of vertices on the boundary.
+  Index fill_outgoing(Index vertex_count) {
+    Buffer<Index> outgoing(at(vertex_count));
+    Index boundary_count = 0;
+    for (Index v = 0; v < view_.vertex_count(); ++v) {
+      const VertexId to = maps_.vertices[at(v)];
+      if (!to.valid()) continue;
+      HalfedgeId start = view_.outgoing[VertexId(v)];
+      if (start.valid() && !view_.face(start).valid()) {
+        ++boundary_count;
+        start = view_.next(view_.opposite[start]);
+      }
+      outgoing[at(to.value)] = start.valid() ? maps_.halfedges[at(start.value)].value : start.value;
+    }
+    columns_.outgoing = std::move(outgoing);
+    return boundary_count;
+  }
+
+  const EditMesh& mesh_;
+  EditView view_;
+  ConnectivityColumns columns_;
+  CompactMaps maps_;
+  Index face_count_ = 0;
+};
+
 }  // namespace
 
 Result<Compacted> EditMesh::compact() const {
+  if (form_ == Form::open) {
+    if (auto done = TriangleCompaction(*this).run()) return std::move(*done);
+  }
   LiveSource source(*this);
   auto numbered = detail::HalfedgeMaker(source).run();
   if (!numbered) return fail(numbered.error());
@@ -126,7 +244,7 @@ PackedIds Edit::pack(EditMesh& mesh) {
   for (const EditColumn which :
        {EditColumn::origin, EditColumn::opposite, EditColumn::next, EditColumn::prev,
         EditColumn::face, EditColumn::outgoing, EditColumn::is_gone, EditColumn::first}) {
-    mesh.column(which).resize(at(counts[static_cast<std::size_t>(element_of(which))]));
+    mesh.column(which).resize(at(counts[static_cast<std::size_t>(element_of(which))]), 0);
   }
   return ids;
 }

@@ -6,12 +6,14 @@
 #include <tuple>
 #include <utility>
 
-#include "hedgerow/boundary.h"
+#include "closed_columns.h"
+#include "parallel/parallel.h"
 
 namespace hedgerow {
 
 namespace {
 
+constexpr Index kGrain = 1 << 16;
 constexpr std::array kColumns = {EditColumn::origin,  EditColumn::opposite, EditColumn::next,
                                  EditColumn::prev,    EditColumn::face,     EditColumn::outgoing,
                                  EditColumn::is_gone, EditColumn::first};
@@ -114,87 +116,29 @@ kernels::EditColumns Edit::columns(EditMesh& mesh) noexcept {
 
 void Edit::make_room(EditMesh& mesh, Index vertices, Index halfedges, Index faces,
                      std::size_t writes) {
-  const auto reserve = [](auto& list, std::size_t size) {
-    // As it would grow by itself: many small batches move it a few times only.
-    if (size > list.capacity()) list.reserve(std::max(size, 2 * list.size()));
+  for (GrowingColumn* column :
+       {&mesh.origin_, &mesh.opposite_, &mesh.next_, &mesh.prev_, &mesh.face_}) {
+    column->make_room(static_cast<std::size_t>(halfedges));
+  }
+  mesh.outgoing_.make_room(static_cast<std::size_t>(vertices));
+  mesh.is_gone_.make_room(static_cast<std::size_t>(vertices));
+  mesh.first_.make_room(static_cast<std::size_t>(faces));
+  const auto reserve = [writes](auto& list) {
+    if (writes > list.capacity()) list.reserve(writes);
   };
-  const Index more[] = {vertices, halfedges, faces};
-  for (const EditColumn which : kColumns) {
-    auto& column = mesh.column(which);
-    const Index count = more[static_cast<std::size_t>(element_of(which))];
-    reserve(column, column.size() + static_cast<std::size_t>(count));
+  reserve(mesh.change_.writes);
+  reserve(mesh.change_.births);
+  reserve(mesh.change_.deaths);
+}
+
+void Edit::grow(Index vertices, Index halfedges, Index faces) noexcept {
+  for (GrowingColumn* column : {&m_.origin_, &m_.opposite_, &m_.next_, &m_.prev_, &m_.face_}) {
+    column->extend(static_cast<std::size_t>(halfedges));
   }
-  reserve(mesh.change_.writes, writes);
-  reserve(mesh.change_.births, writes);
-  reserve(mesh.change_.deaths, writes);
-}
-
-void Edit::grow(Index vertices, Index halfedges, Index faces) {
-  const Index more[] = {vertices, halfedges, faces};
-  for (const EditColumn which : kColumns) {
-    auto& column = m_.column(which);
-    const Index count = more[static_cast<std::size_t>(element_of(which))];
-    column.resize(column.size() + static_cast<std::size_t>(count), none_of(which));
-  }
-}
-
-// ---- tests
-
-EditCheck EditTest::has(HalfedgeId h) const noexcept {
-  return mesh_.has(h) ? EditCheck{} : EditCheck{Refusal::no_such_element, h.value};
-}
-
-EditCheck EditTest::has_room(Index vertices, Index halfedges, Index faces) const noexcept {
-  const bool fits = vertices <= kMaxCount - mesh_.vertex_count() &&
-                    halfedges <= kMaxCount - mesh_.halfedge_count() &&
-                    faces <= kMaxCount - mesh_.face_count();
-  return fits ? EditCheck{} : EditCheck{Refusal::too_many, kMaxCount};
-}
-
-EditCheck EditTest::has_one_fan(std::initializer_list<VertexId> vertices) const noexcept {
-  if (view_.fans.empty()) return {};
-  for (const VertexId v : vertices) {
-    if (!extra_fans(view_.fans, v).empty()) return {Refusal::several_fans, v.value};
-  }
-  return {};
-}
-
-bool EditTest::is_in(FaceId f, VertexId v) const noexcept {
-  const auto corners = vertices(view_, f);
-  return std::ranges::find(corners, v) != corners.end();
-}
-
-bool EditTest::is_triangle(HalfedgeId h) const noexcept {
-  return view_.next(view_.next(view_.next(h))) == h;
-}
-
-bool EditTest::is_on_boundary(VertexId v) const noexcept {
-  return view_.outgoing[v].valid() && !view_.face(view_.outgoing[v]).valid();
-}
-
-bool EditTest::are_joined(VertexId a, VertexId b) const noexcept {
-  const auto at_a = outgoing_halfedges(view_, a);
-  const auto at_b = outgoing_halfedges(view_, b);
-  // Both at once, and whoever is round first knows: one may be the middle of a large fan.
-  auto i = at_a.begin();
-  auto j = at_b.begin();
-  for (; i != at_a.end() && j != at_b.end(); ++i, ++j) {
-    if (view_.target(*i) == b || view_.target(*j) == a) return true;
-  }
-  return false;
-}
-
-Index EditTest::gaps(VertexId v) const noexcept {
-  Index count = 0;
-  for (const HalfedgeId h : outgoing_halfedges(view_, v)) count += !view_.face(h).valid();
-  return count;
-}
-
-bool EditTest::have_face(VertexId a, VertexId b, FaceId but, FaceId and_but) const noexcept {
-  for (const FaceId f : incident_faces(view_, a)) {
-    if (f != but && f != and_but && is_in(f, b)) return true;
-  }
-  return false;
+  m_.outgoing_.extend(static_cast<std::size_t>(vertices));
+  std::fill_n(m_.is_gone_.data() + m_.is_gone_.size(), vertices, Index{0});
+  m_.is_gone_.extend(static_cast<std::size_t>(vertices));
+  m_.first_.extend(static_cast<std::size_t>(faces));
 }
 
 // ---- the mesh
@@ -207,11 +151,6 @@ constexpr const char* kRefusalNames[] = {
     "several-fans", "too-few-corners", "not-a-path",     "too-many",       "other-state"};
 static_assert(std::size(kRefusalNames) == static_cast<std::size_t>(Refusal::other_state) + 1);
 
-template <class Column, class To>
-void copy(const Column& column, To& to) {
-  to.assign(column.data(), column.data() + column.size());
-}
-
 }  // namespace
 
 const char* name(Refusal refusal) noexcept {
@@ -219,30 +158,29 @@ const char* name(Refusal refusal) noexcept {
 }
 
 Result<EditMesh> EditMesh::of(const Connectivity& mesh, const Execution& execution) {
-  if (mesh.form() == Form::open) {
-    const Result<Connectivity> closed = close_boundary(mesh, execution);
-    if (!closed) return fail(closed.error());
-    Result<EditMesh> made = of(*closed, execution);
-    made->form_ = Form::open;
-    return made;
-  }
-  const PolygonView view = mesh.polygons();
+  auto columns = detail::closed_columns(mesh, execution);
+  if (!columns) return fail(columns.error());
+  Buffer<Index> prev(columns->next.size());
+  // `next` is a permutation.
+  par::for_each_range(execution, static_cast<Index>(prev.size()), kGrain, [&](IndexRange range) {
+    for (Index h = range.begin; h < range.end; ++h) prev[at(columns->next[at(h)])] = h;
+  });
   EditMesh made;
-  made.form_ = Form::closed;
-  copy(view.origin, made.origin_);
-  copy(view.opposite, made.opposite_);
-  copy(view.next_of, made.next_);
-  copy(view.face_of, made.face_);
-  copy(view.outgoing, made.outgoing_);
-  made.first_.assign(view.first_of.data(), view.first_of.data() + view.face_count());
-  made.fans_.assign(view.fans.begin(), view.fans.end());
-  made.is_gone_.assign(made.outgoing_.size(), 0);
-  made.prev_.resize(made.next_.size());
-  for (Index h = 0; h < made.halfedge_count(); ++h) made.prev_[at(made.next_[at(h)])] = h;
+  made.form_ = mesh.form();
+  made.is_gone_ = GrowingColumn(Buffer<Index>(columns->outgoing.size(), 0));
+  made.fans_.assign(columns->fans.begin(), columns->fans.end());
+  columns->first.truncate(at(mesh.face_count()));
+  made.origin_ = GrowingColumn(std::move(columns->origin));
+  made.opposite_ = GrowingColumn(std::move(columns->opposite));
+  made.next_ = GrowingColumn(std::move(columns->next));
+  made.prev_ = GrowingColumn(std::move(prev));
+  made.face_ = GrowingColumn(std::move(columns->face));
+  made.outgoing_ = GrowingColumn(std::move(columns->outgoing));
+  made.first_ = GrowingColumn(std::move(columns->first));
   return made;
 }
 
-EditMesh::EditedColumn& EditMesh::column(EditColumn which) noexcept {
+GrowingColumn& EditMesh::column(EditColumn which) noexcept {
   switch (which) {
     case EditColumn::origin:
       return origin_;
@@ -261,13 +199,6 @@ EditMesh::EditedColumn& EditMesh::column(EditColumn which) noexcept {
     default:
       return first_;
   }
-}
-
-EditView EditMesh::view() const noexcept {
-  return {{origin_.data(), halfedge_count()}, {opposite_.data(), halfedge_count()},
-          {outgoing_.data(), vertex_count()}, {next_.data(), halfedge_count()},
-          {prev_.data(), halfedge_count()},   {face_.data(), halfedge_count()},
-          {first_.data(), face_count()},      fans_};
 }
 
 HalfedgeId EditMesh::find(VertexId a, VertexId b) const noexcept {
@@ -348,7 +279,8 @@ EditCheck EditMesh::undo(const Change& change) {
     return refused;
   }
   for (const EditColumn which : kColumns) {
-    column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]));
+    column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]),
+                         none_of(which));
   }
   return {};
 }
@@ -373,7 +305,8 @@ EditCheck EditMesh::replay(const Change& change) {
       column(done.column)[at(done.index)] = done.before;
     }
     for (const EditColumn which : kColumns) {
-      column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]));
+      column(which).resize(at(change.counts_before[static_cast<std::size_t>(element_of(which))]),
+                           none_of(which));
     }
     return {Refusal::other_state, write.index};
   }

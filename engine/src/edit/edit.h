@@ -70,7 +70,7 @@ class Edit {
   static void make_room(EditMesh& mesh, Index vertices, Index halfedges, Index faces,
                         std::size_t writes);
   /// So many more elements, all of their entries to be filled.
-  void grow(Index vertices, Index halfedges, Index faces);
+  void grow(Index vertices, Index halfedges, Index faces) noexcept;
 
   /// Numbers what is left anew, in its order and in place: unlike `EditMesh::compact` half-edges,
   /// too. Records of before are of another mesh. Throws std::bad_alloc before any change.
@@ -96,26 +96,93 @@ class Edit {
 /// What the questions before an edit are made of.
 class EditTest {
  public:
-  explicit EditTest(const EditMesh& mesh) noexcept : mesh_(mesh), view_(mesh.view()) {}
+  explicit EditTest(const EditMesh& mesh) noexcept : view_(mesh.view()) {}
 
   [[nodiscard]] const EditView& view() const noexcept { return view_; }
-  [[nodiscard]] EditCheck has(HalfedgeId h) const noexcept;
+  [[nodiscard]] EditCheck has(HalfedgeId h) const noexcept {
+    const bool exists = h.value >= 0 && h.value < view_.halfedge_count() && view_.next(h).valid();
+    return exists ? EditCheck{} : EditCheck{Refusal::no_such_element, h.value};
+  }
   /// That there is room for so many more.
-  [[nodiscard]] EditCheck has_room(Index vertices, Index halfedges, Index faces) const noexcept;
-  [[nodiscard]] EditCheck has_one_fan(std::initializer_list<VertexId> vertices) const noexcept;
-  [[nodiscard]] bool is_in(FaceId f, VertexId v) const noexcept;
-  [[nodiscard]] bool is_triangle(HalfedgeId h) const noexcept;
-  [[nodiscard]] bool is_on_boundary(VertexId v) const noexcept;
-  /// Whether there is an edge between them. O(smaller valence).
-  [[nodiscard]] bool are_joined(VertexId a, VertexId b) const noexcept;
+  [[nodiscard]] EditCheck has_room(Index vertices, Index halfedges, Index faces) const noexcept {
+    const bool fits = vertices <= kMaxCount - view_.vertex_count() &&
+                      halfedges <= kMaxCount - view_.halfedge_count() &&
+                      faces <= kMaxCount - view_.face_count();
+    return fits ? EditCheck{} : EditCheck{Refusal::too_many, kMaxCount};
+  }
+  [[nodiscard]] EditCheck has_one_fan(std::initializer_list<VertexId> vertices) const noexcept {
+    if (view_.fans.empty()) return {};
+    for (const VertexId v : vertices) {
+      if (!extra_fans(view_.fans, v).empty()) return {Refusal::several_fans, v.value};
+    }
+    return {};
+  }
+  [[nodiscard]] bool is_in(FaceId f, VertexId v) const noexcept {
+    return is_on_cycle(view_.first(f), v);
+  }
+  /// Whether some half-edge of the cycle of h leaves `v`.
+  [[nodiscard]] bool is_on_cycle(HalfedgeId h, VertexId v) const noexcept {
+    HalfedgeId k = h;
+    do {
+      if (view_.origin[k] == v) return true;
+      k = view_.next(k);
+    } while (k != h);
+    return false;
+  }
+  [[nodiscard]] bool is_triangle(HalfedgeId h) const noexcept {
+    return view_.next(view_.next(view_.next(h))) == h;
+  }
+  [[nodiscard]] bool is_on_boundary(VertexId v) const noexcept {
+    return view_.outgoing[v].valid() && !view_.face(view_.outgoing[v]).valid();
+  }
+  /// The next half-edge that leaves the same vertex.
+  [[nodiscard]] HalfedgeId clockwise(HalfedgeId h) const noexcept {
+    return view_.next(view_.opposite[h]);
+  }
+  /// Whether there is an edge between the origins of the two half-edges. O(smaller valence).
+  [[nodiscard]] bool are_joined(HalfedgeId from_a, HalfedgeId from_b) const noexcept;
   /// The number of boundary half-edges that leave `v`.
   [[nodiscard]] Index gaps(VertexId v) const noexcept;
   /// Whether some face at `a`, but for these two, has `b` as a corner.
   [[nodiscard]] bool have_face(VertexId a, VertexId b, FaceId but, FaceId and_but) const noexcept;
 
  private:
-  const EditMesh& mesh_;
   EditView view_;
 };
+
+inline bool EditTest::are_joined(HalfedgeId from_a, HalfedgeId from_b) const noexcept {
+  const VertexId a = view_.origin[from_a];
+  const VertexId b = view_.origin[from_b];
+  if (!view_.fans.empty()) {
+    for (const HalfedgeId h : outgoing_halfedges(view_, a)) {
+      if (view_.target(h) == b) return true;
+    }
+    return false;
+  }
+  // Both at once, and whoever is round first knows: one may be the middle of a large fan.
+  HalfedgeId i = from_a;
+  HalfedgeId j = from_b;
+  do {
+    const HalfedgeId across_i = view_.opposite[i];
+    const HalfedgeId across_j = view_.opposite[j];
+    if (view_.origin[across_i] == b || view_.origin[across_j] == a) return true;
+    i = view_.next(across_i);
+    j = view_.next(across_j);
+  } while (i != from_a && j != from_b);
+  return false;
+}
+
+inline Index EditTest::gaps(VertexId v) const noexcept {
+  Index count = 0;
+  for (const HalfedgeId h : outgoing_halfedges(view_, v)) count += !view_.face(h).valid();
+  return count;
+}
+
+inline bool EditTest::have_face(VertexId a, VertexId b, FaceId but, FaceId and_but) const noexcept {
+  for (const FaceId f : incident_faces(view_, a)) {
+    if (f != but && f != and_but && is_in(f, b)) return true;
+  }
+  return false;
+}
 
 }  // namespace hedgerow

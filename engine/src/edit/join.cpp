@@ -1,4 +1,6 @@
 // Edits that take an edge away: collapse, and joining two faces.
+#include <cstdint>
+
 #include "edit/edit.h"
 #include "kernels/scatter_edits.h"
 
@@ -59,6 +61,11 @@ bool would_dangle(const EditTest& test, HalfedgeId h) {
   return !beyond_next.valid() && !beyond_prev.valid();
 }
 
+// One of 64, of numbers that may lie close together.
+std::uint64_t bit_of(VertexId v) {
+  return std::uint64_t{1} << (static_cast<std::uint64_t>(v.value) * 0x9e3779b97f4a7c15U >> 58U);
+}
+
 // A neighbour that both ends have is a duplicate edge, unless the triangle between goes.
 EditCheck test_neighbours(const EditTest& test, HalfedgeId h) {
   const EditView& mesh = test.view();
@@ -93,11 +100,54 @@ EditCheck test_triangles(const EditTest& test, HalfedgeId h) {
   return {};
 }
 
+// The answer of all tests together where it is yes on a mesh of triangles, `a` has faces all round,
+// and nobody is both its neighbour and that of b but the two across the edge: in one walk round
+// `a`, and one round b if anything is left to compare.
+bool collapses_plainly(const EditTest& test, HalfedgeId h) {
+  const EditView& mesh = test.view();
+  const HalfedgeId o = mesh.opposite[h];
+  const VertexId a = mesh.origin[h];
+  const VertexId b = mesh.origin[o];
+  if (!mesh.fans.empty() || test.is_on_boundary(a)) return false;
+  const VertexId left = mesh.origin[mesh.prev(h)];
+  const VertexId right = mesh.origin[mesh.prev(o)];
+  if (left == right || !test.is_triangle(h) || !test.is_triangle(o) || !mesh.face(h).valid()) {
+    return false;
+  }
+  const HalfedgeId end = mesh.prev(h);  // enters `a` beside h: the last one is opposite to it
+  HalfedgeId out = test.clockwise(h);
+  std::uint64_t neighbours = 0;  // a set with errors: what is not in it is none
+  for (HalfedgeId in = HalfedgeId(); in != end; out = mesh.next(in)) {
+    in = mesh.opposite[out];
+    const HalfedgeId third = mesh.next(out);
+    const VertexId v = mesh.origin[third];
+    if (v != right && v != left) neighbours |= bit_of(v);
+    if (out == mesh.next(o)) continue;  // in the face of o
+    const HalfedgeId beyond = mesh.opposite[third];
+    if (v == b || !test.is_triangle(out) || !mesh.face(out).valid() ||
+        mesh.origin[mesh.prev(beyond)] == b) {
+      return false;
+    }
+  }
+  const bool may_have_gaps = test.is_on_boundary(b);
+  if (neighbours == 0 && !may_have_gaps) return true;
+  Index gaps = 0;
+  HalfedgeId to = o;
+  do {
+    const VertexId v = mesh.target(to);
+    if ((neighbours & bit_of(v)) != 0 && v != a && v != left && v != right) return false;
+    gaps += Index{!mesh.face(to).valid()};
+    to = test.clockwise(to);
+  } while (to != o);
+  return gaps <= 1;
+}
+
 }  // namespace
 
 EditCheck EditMesh::can_collapse(HalfedgeId h) const {
   const EditTest test(*this);
   if (const EditCheck exists = test.has(h); !exists) return exists;
+  if (collapses_plainly(test, h)) return {};
   const EditView& mesh = test.view();
   const HalfedgeId o = mesh.opposite[h];
   const VertexId a = mesh.origin[h];

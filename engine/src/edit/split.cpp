@@ -1,5 +1,6 @@
 // Edits that turn an edge or make elements: flip, and the splits of edges, faces and vertices.
 #include "edit/edit.h"
+#include "kernels/plain_edit.h"
 
 namespace hedgerow {
 
@@ -14,12 +15,14 @@ EditCheck EditMesh::can_flip(HalfedgeId h) const {
   const FaceId g = mesh.face(o);
   if (!f.valid() || !g.valid()) return {Refusal::boundary, h.value};
   if (f == g) return {Refusal::same_face, f.value};
-  const VertexId c = mesh.target(mesh.next(o));
-  const VertexId d = mesh.target(mesh.next(h));
+  const HalfedgeId from_c = mesh.next(mesh.next(o));
+  const HalfedgeId from_d = mesh.next(mesh.next(h));
+  const VertexId c = mesh.origin[from_c];
+  const VertexId d = mesh.origin[from_d];
   // Each face takes a vertex over from the other one.
-  if (test.is_in(f, c)) return {Refusal::same_vertex, c.value};
-  if (test.is_in(g, d)) return {Refusal::same_vertex, d.value};
-  if (test.are_joined(c, d)) return {Refusal::duplicate_edge, find(c, d).value};
+  if (test.is_on_cycle(h, c)) return {Refusal::same_vertex, c.value};
+  if (test.is_on_cycle(o, d)) return {Refusal::same_vertex, d.value};
+  if (test.are_joined(from_c, from_d)) return {Refusal::duplicate_edge, find(c, d).value};
   return test.has_one_fan({mesh.origin[h], mesh.origin[o], c, d});
 }
 
@@ -113,29 +116,19 @@ EditCheck EditMesh::can_split_face(FaceId f) const {
 
 EditResult EditMesh::split_face(FaceId f) {
   if (const EditCheck possible = can_split_face(f); !possible) return tl::unexpected(possible);
+  const Index n = view().degree(f);
+  Edit::make_room(*this, 1, 2 * n, n - 1, 0);
+  const VertexId v(vertex_count());
+  const HalfedgeId h(halfedge_count());
+  const FaceId part(face_count());
   Edit edit(*this);
-  const HalfedgeId start = edit.first(f);
-  const VertexId v = edit.add_vertex(edit.origin(start));
-  HalfedgeId h = start;
-  FaceId part = f;
-  const HalfedgeId first_in = edit.add_halfedge(edit.origin(h), FaceId());
-  HalfedgeId in = first_in;  // from the origin of h to v; belongs to the part before
-  do {
-    const HalfedgeId after = edit.next(h);
-    const HalfedgeId out = edit.add_halfedge(v, part);
-    edit.pair(in, out);
-    const HalfedgeId next_in =
-        after == start ? first_in : edit.add_halfedge(edit.origin(after), part);
-    edit.set_face(next_in, part);
-    edit.set_face(h, part);
-    edit.link(out, h);
-    edit.link(h, next_in);
-    edit.link(next_in, out);
-    if (h == start) edit.set_outgoing(v, out);
-    if (after != start) part = edit.add_face(after, f);
-    in = next_in;
-    h = after;
-  } while (h != start);
+  if (is_recording_) {
+    kernels::split_face(edit, f);
+  } else {
+    edit.grow(1, 2 * n, n - 1);
+    kernels::PlainEdit plain(Edit::columns(*this), v, h, part);
+    kernels::split_face(plain, f);
+  }
   return edit.done();
 }
 

@@ -66,9 +66,9 @@ void close_side(Edit& edit, HalfedgeId n, bool starts_across) {
   edit.remove(n);
   edit.remove(p);
   edit.remove(f);
-  // p had a face, so that where it stood there is no boundary half-edge to stand.
+  // What goes had a face, so that where it stood there is no boundary half-edge to stand.
   if (starts_across) edit.set_outgoing(across, beyond_n);
-  settle_if_needed(edit, b, beyond_p);
+  if (edit.outgoing(b) == n) edit.set_outgoing(b, beyond_p);
 }
 
 /// Moves the origin of a half-edge into its target. \pre EditMesh::can_collapse
@@ -92,13 +92,16 @@ void collapse_edge(Edit& edit, const Collapse& collapse) {
   edit.link(edit.prev(o), m);
   if (f.valid() && edit.first(f) == h) edit.set_first(f, n);
   if (g.valid() && edit.first(g) == o) edit.set_first(g, m);
+  // The boundary of either end is that of both, and no more than one half-edge of it leaves each.
   const HalfedgeId start = edit.outgoing(a);
-  const bool brings_boundary = start != h && !edit.face(start).valid();
+  if (start != h && !edit.face(start).valid()) {
+    edit.set_outgoing(b, start);
+  } else if (edit.outgoing(b) == o) {
+    edit.set_outgoing(b, n);
+  }
   edit.remove(h);
   edit.remove(o);
   edit.remove(a);
-  // The boundary of either is that of both.
-  settle_if_needed(edit, b, brings_boundary ? start : n);
   if (collapse.left.is_triangle) close_side(edit, n, collapse.left.starts);
   if (collapse.right.is_triangle) close_side(edit, m, collapse.right.starts);
 }
@@ -139,6 +142,33 @@ void cut_face(Edit& edit, HalfedgeId h, HalfedgeId g) {
   for (HalfedgeId k = there; k != before_h; k = edit.next(k)) edit.set_face(k, cut_off);
   edit.set_face(before_h, cut_off);
   if (edit.face(edit.first(f)) != f) edit.set_first(f, h);
+}
+
+/// A vertex within f, joined to all its corners. The triangle of `first(f)` stays f.
+template <class Edit>
+void split_face(Edit& edit, FaceId f) {
+  const HalfedgeId start = edit.first(f);
+  const VertexId v = edit.add_vertex(edit.origin(start));
+  HalfedgeId h = start;
+  FaceId part = f;
+  const HalfedgeId first_in = edit.add_halfedge(edit.origin(h), FaceId());
+  HalfedgeId in = first_in;  // from the origin of h to v; belongs to the part before
+  do {
+    const HalfedgeId after = edit.next(h);
+    const HalfedgeId out = edit.add_halfedge(v, part);
+    edit.pair(in, out);
+    const HalfedgeId next_in =
+        after == start ? first_in : edit.add_halfedge(edit.origin(after), part);
+    edit.set_face(next_in, part);
+    edit.set_face(h, part);
+    edit.link(out, h);
+    edit.link(h, next_in);
+    edit.link(next_in, out);
+    if (h == start) edit.set_outgoing(v, out);
+    if (after != start) part = edit.add_face(after, f);
+    in = next_in;
+    h = after;
+  } while (h != start);
 }
 
 /// An edge that gets a vertex, and which of its sides are triangles, which are cut.

@@ -47,7 +47,7 @@ class PlainEdit {
     c_.opposite[o.value] = h.value;
   }
 
-  VertexId add_vertex(VertexId, VertexId) noexcept { return VertexId(vertex_.value++); }
+  VertexId add_vertex(VertexId, VertexId = {}) noexcept { return VertexId(vertex_.value++); }
   HalfedgeId add_halfedge(VertexId origin, FaceId face, HalfedgeId = {}) noexcept {
     const HalfedgeId h(halfedge_.value++);
     set_origin(h, origin);
