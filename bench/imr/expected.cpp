@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "imr/suite.h"
 
@@ -103,10 +102,6 @@ const char* name(ImrRow row) noexcept {
   constexpr std::array kNames = {"circulator", "barycenter",  "normals",
                                  "smoothing",  "subdivision", "collapse"};
   return kNames[static_cast<std::size_t>(row)];
-}
-
-double sqrt3_share(int valence) noexcept {
-  return (4 - 2 * std::cos(2 * std::numbers::pi / valence)) / 9;
 }
 
 std::string check_rings(const ImrInput& input, const RingSums& sums) {

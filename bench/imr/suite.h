@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -98,6 +100,8 @@ struct ImrInput {
 [[nodiscard]] std::string check_unchanged(const ImrInput& input, const ImrSurface& surface);
 
 /// The share of the centre in the new place of a vertex: L. Kobbelt, "sqrt(3)-subdivision", 2000.
-[[nodiscard]] double sqrt3_share(int valence) noexcept;
+[[nodiscard]] inline double sqrt3_share(int valence) noexcept {
+  return (4 - 2 * std::cos(2 * std::numbers::pi / valence)) / 9;
+}
 
 }  // namespace hedgerow::bench
