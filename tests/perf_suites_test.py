@@ -90,7 +90,8 @@ class SixTests(unittest.TestCase):
         lost = self.found(entry("imr_smoothing/scan/1M/1", 20),
                           entry("imr_smoothing/scan/1M/1/openmesh", 10),
                           entry("imr_collapse/scan/1M/1", 20),
-                          entry("imr_collapse/scan/1M/1/cgal-removal", 10))
+                          entry("imr_collapse/scan/1M/1/cgal", 10),
+                          entry("imr_collapse/scan/1M/1/cgal-removal", 5))
         verdicts = dict((title.split(",")[0], (value, verdict))
                         for title, value, verdict in self.verdicts(lost))
         self.assertEqual(verdicts["smoothing"], (0.5, "**missed**"))
