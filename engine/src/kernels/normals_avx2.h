@@ -111,7 +111,8 @@ class TriangleLoader {
   // Corner k of triangle i is corner(i, k); `largest` has the largest of them in one of its lanes,
   // and nothing larger than the last vertex.
   template <class Corner>
-  void load(const Corner& corner, __m256i largest, Vec3<Float8> (&p)[3]) const noexcept {
+  [[gnu::always_inline]] void load(const Corner& corner, __m256i largest,
+                                   Vec3<Float8> (&p)[3]) const noexcept {
     if (is_any_last(largest)) [[unlikely]] {
       for (int k = 0; k < 3; ++k) p[k] = one_by_one(corner, k);
       return;
@@ -152,7 +153,7 @@ inline decltype(auto) with_loader(const Points& points, const Function& function
 struct Rows8 {
   __m128 row[8];
 };
-[[nodiscard]] inline Rows8 to_rows(const Vec3<Float8>& v, float w) noexcept {
+[[nodiscard, gnu::always_inline]] inline Rows8 to_rows(const Vec3<Float8>& v, float w) noexcept {
   const __m256 last = _mm256_set1_ps(w);
   const __m256 xy_low = _mm256_unpacklo_ps(v.x.bits, v.y.bits);
   const __m256 xy_high = _mm256_unpackhi_ps(v.x.bits, v.y.bits);

@@ -47,7 +47,7 @@ inline constexpr float kPi = 3.14159265358979323846f;
 // the most before rounding. Larger slopes are first turned by pi / 4, where
 // atan(a / b) = pi / 4 - atan((b - a) / (b + a)).
 template <class T>
-[[nodiscard]] inline T angle_of(T cross_length, T dot_product) noexcept {
+[[nodiscard, gnu::always_inline]] inline T angle_of(T cross_length, T dot_product) noexcept {
   const T adjacent = magnitude(dot_product);
   const T low = smaller(cross_length, adjacent);
   const T high = larger(cross_length, adjacent);
@@ -80,10 +80,11 @@ struct TriangleTerms {
                  ///< else nothing
 };
 
-/// Fills `terms` and returns in which lanes it may be used.
+/// Fills `terms` and returns in which lanes it may be used. (Inlined by force, as is what it hands
+/// over: a call passes all lanes through memory.)
 template <NormalWeight W, class T>
-[[nodiscard]] inline auto triangle_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
-                                         TriangleTerms<T>& terms) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto triangle_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
+                                                             TriangleTerms<T>& terms) noexcept {
   const Vec3<T> u = p1 - p0;
   const Vec3<T> v = p2 - p0;
   const Vec3<T> area = cross(u, v);
@@ -121,13 +122,19 @@ template <NormalWeight W, class T>
   }
 }
 
+/// By what corner k multiplies the base, given its factor; where the corners differ.
+template <NormalWeight W, class T>
+[[nodiscard, gnu::always_inline]] inline T corner_weight(T length, T factor) noexcept {
+  if constexpr (W == NormalWeight::angle) return angle_of(length, factor);
+  return T(1.0f) / factor;
+}
+
 /// What corner k adds, given its factor.
 template <NormalWeight W, class T>
-[[nodiscard]] inline Vec3<T> corner_term(const TriangleTerms<T>& terms, T factor) noexcept {
-  if constexpr (W == NormalWeight::angle) {
-    return terms.base * angle_of(terms.length, factor);
-  } else if constexpr (W == NormalWeight::max) {
-    return terms.base * (T(1.0f) / factor);
+[[nodiscard, gnu::always_inline]] inline Vec3<T> corner_term(const TriangleTerms<T>& terms,
+                                                             T factor) noexcept {
+  if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
+    return terms.base * corner_weight<W>(terms.length, factor);
   } else {
     return terms.base;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/normals_weight.h"
+#include "kernels/term_rows.h"
 
 namespace hedgerow::kernels {
 
@@ -12,9 +13,9 @@ namespace {
 constexpr float kBias = 1000;
 constexpr float kNoTerm = -3000;
 
-void add(VertexSum& sum, Float3 term) noexcept {
-  sum.sum = sum.sum + term;
-  sum.state += 1;
+void add(VertexSum& sum, const TermRow& row) noexcept {
+  sum.term = sum.term + row.term;
+  sum.count += row.count;
 }
 
 template <NormalWeight W>
@@ -30,7 +31,7 @@ void scatter_polygons(IndexRange range, const ScatterInput& input, const SumBloc
       if (!block.holds(v)) continue;
       if (!is_known) face = face_vector<W>(input.faces, f, input.points, input.polygon);
       is_known = true;
-      add(block[v], narrow(face_corner<W>(face, degree, k, point)));
+      add(block[v], {narrow(face_corner<W>(face, degree, k, point)), 1});
     }
   }
 }
@@ -47,7 +48,7 @@ void for_each_marked(IndexRange range, const ScatterInput& input, const SumBlock
     bool is_known = input.faces.is_triangles();
     for (Index k = 0; k < degree; ++k) {
       const Index v = input.faces.corner(begin + k);
-      if (!block.holds(v) || !(block[v].state < 0)) continue;
+      if (!block.holds(v) || !(block[v].count < 0)) continue;
       if (!is_known) face = face_vector<W>(input.faces, f, input.points, input.polygon);
       is_known = true;
       visit(block[v], face_corner<W>(face, degree, k, point));
@@ -57,36 +58,26 @@ void for_each_marked(IndexRange range, const ScatterInput& input, const SumBlock
 
 }  // namespace
 
-void scatter_triangles_scalar(IndexRange range, const Index* corners, const ScatterInput& input,
-                              const SumBlock& block, bool is_inside) noexcept {
-  with_weight(input.weight, [&](auto weight) {
-    for (Index f = range.begin; f < range.end; ++f, corners += 3) {
-      Float3 terms[3];
-      triangle_corners<weight()>(input.points[corners[0]], input.points[corners[1]],
-                                 input.points[corners[2]], terms);
-      for (int k = 0; k < 3; ++k) {
-        if (is_inside || block.holds(corners[k])) add(block[corners[k]], terms[k]);
-      }
-    }
-  });
-}
-
 void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& block,
                    bool is_inside) noexcept {
-  if (input.faces.is_triangles()) {
-    const auto kernel = suits_avx2(input.points) ? scatter_triangles_avx2 : scatter_triangles_sse;
-    for_each_packed(range, input.faces, [&](IndexRange piece, const Index* corners) {
-      kernel(piece, corners, input, block, is_inside);
-    });
+  if (!input.faces.is_triangles()) {
+    with_weight(input.weight,
+                [&](auto weight) { scatter_polygons<weight()>(range, input, block); });
     return;
   }
-  with_weight(input.weight, [&](auto weight) { scatter_polygons<weight()>(range, input, block); });
+  for_each_packed(range, input.faces, [&](IndexRange piece, const Index* corners) {
+    // Most often the next run of faces is the next to be added.
+    const bool is_native = input.faces.native != nullptr;
+    const Index end = is_native ? input.faces.face_count() : piece.end;
+    const std::ptrdiff_t index_count = 3 * static_cast<std::ptrdiff_t>(end - piece.begin);
+    add_terms({corners, piece.size(), index_count}, {input.points, input.weight, block, is_inside});
+  });
 }
 
 NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                         Index& again_count) noexcept {
   return simd_path() == SimdPath::avx2 ? finish_sums_avx2(block, writer, again_count)
-                                       : finish_sums_scalar(block, writer, again_count);
+                    : finish_sums_scalar(block, writer, again_count);
 }
 
 NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer,
@@ -95,9 +86,9 @@ NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer
   for (Index i = 0; i < block.size; ++i) {
     VertexSum& sum = block.sums[i];
     Float3 unit;
-    if (normalise(sum.sum, unit)) [[likely]] {
+    if (normalise(sum.term, unit)) [[likely]] {
       writer.write(block.begin + i, unit);
-    } else if (sum.state == 0) {
+    } else if (sum.count == 0) {
       writer.write_degenerate(block.begin + i, stats);
     } else {
       sum = {{0, 0, 0}, kNoTerm};
@@ -113,7 +104,7 @@ void scatter_exponents(IndexRange range, const ScatterInput& input,
     for_each_marked<weight()>(range, input, block, [](VertexSum& sum, const Wide& term) {
       const int exponent = exponent_of(term);
       if (exponent == kNoExponent) return;
-      sum.state = std::max(sum.state, static_cast<float>(exponent) - kBias);
+      sum.count = std::max(sum.count, static_cast<float>(exponent) - kBias);
     });
   });
 }
@@ -121,8 +112,8 @@ void scatter_exponents(IndexRange range, const ScatterInput& input,
 void scatter_scaled(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept {
   with_weight(input.weight, [&](auto weight) {
     for_each_marked<weight()>(range, input, block, [](VertexSum& sum, const Wide& term) {
-      if (sum.state == kNoTerm) return;
-      sum.sum = sum.sum + scaled(term, static_cast<int>(sum.state + kBias));
+      if (sum.count == kNoTerm) return;
+      sum.term = sum.term + scaled(term, static_cast<int>(sum.count + kBias));
     });
   });
 }
@@ -130,9 +121,9 @@ void scatter_scaled(IndexRange range, const ScatterInput& input, const SumBlock&
 NormalStats finish_scaled(const SumBlock& block, const NormalWriter& writer) noexcept {
   NormalStats stats;
   for (Index i = 0; i < block.size; ++i) {
-    if (!(block.sums[i].state < 0)) continue;
+    if (!(block.sums[i].count < 0)) continue;
     Float3 unit;
-    if (normalise_wide(block.sums[i].sum, unit)) {
+    if (normalise_wide(block.sums[i].term, unit)) {
       writer.write(block.begin + i, unit);
     } else {
       writer.write_degenerate(block.begin + i, stats);

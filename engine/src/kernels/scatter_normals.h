@@ -2,33 +2,15 @@
 
 #include <type_traits>
 
-#include "kernels/normals_source.h"
+#include "kernels/term_rows.h"
 
 /// The linear face list, for one block of vertices: add the faces, finish, and where a sum left the
 /// range of float, add those again in full range.
 namespace hedgerow::kernels {
 
-/// The sum at one vertex.
-struct alignas(16) VertexSum {
-  Float3 sum{0, 0, 0};
-  /// Corners added so far (up to rounding), so 0 is "on no face"; once found out of range,
-  /// negative: the largest exponent of its terms so far, minus a bias.
-  float state = 0;
-};
-static_assert(sizeof(VertexSum) == 16);
-
-/// Vertices [begin, begin + size), whose sums are sums[0 .. size).
-struct SumBlock {
-  Index begin = 0;
-  Index size = 0;
-  VertexSum* sums = nullptr;
-
-  [[nodiscard]] bool holds(Index v) const noexcept {
-    return static_cast<std::make_unsigned_t<Index>>(v - begin) <
-           static_cast<std::make_unsigned_t<Index>>(size);
-  }
-  [[nodiscard]] VertexSum& operator[](Index v) const noexcept { return sums[v - begin]; }
-};
+/// The sum at one vertex, and the corners added so far (up to rounding), so 0 is "on no face"; once
+/// found out of range, negative: the largest exponent of its terms so far, minus a bias.
+using VertexSum = TermRow;
 
 struct ScatterInput {
   FaceSource faces;
@@ -58,17 +40,6 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 void scatter_exponents(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept;
 void scatter_scaled(IndexRange range, const ScatterInput& input, const SumBlock& block) noexcept;
 [[nodiscard]] NormalStats finish_scaled(const SumBlock& block, const NormalWriter& writer) noexcept;
-
-/// The plain form for triangles: `corners` are those of `range`, packed.
-void scatter_triangles_scalar(IndexRange range, const Index* corners, const ScatterInput& input,
-                              const SumBlock& block, bool is_inside) noexcept;
-/// Four triangles at a time where the processor can; else the same as the plain form.
-void scatter_triangles_sse(IndexRange range, const Index* corners, const ScatterInput& input,
-                           const SumBlock& block, bool is_inside) noexcept;
-
-/// Eight at a time. \pre `suits_avx2(input.points)`
-void scatter_triangles_avx2(IndexRange range, const Index* corners, const ScatterInput& input,
-                            const SumBlock& block, bool is_inside) noexcept;
 
 /// Which blocks of 2^shift vertices a run of faces touches, as a row of bits.
 void mark_blocks(IndexRange corners, const FaceSource& faces, int shift,

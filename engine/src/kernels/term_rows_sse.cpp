@@ -1,0 +1,66 @@
+// Four triangles at a time, a lane each, turned into rows.
+
+#include "kernels/normals_sse.h"
+#include "kernels/term_groups.h"
+
+namespace hedgerow::kernels {
+
+#if defined(__SSE2__)
+
+namespace {
+
+template <NormalWeight W>
+struct Groups4 {
+  static constexpr NormalWeight kWeight = W;
+  static constexpr auto fill_rest = fill_term_rows_scalar;
+  static constexpr auto add_rest = add_terms_scalar;
+  static constexpr Index kSize = 4;
+
+  const Points& points;
+
+  static void prefetch(const Index*, std::ptrdiff_t) noexcept {}
+
+  static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
+    std::uint64_t bits = 0;
+    for (int c = 0; c < 3 * kSize; ++c) bits |= std::uint64_t{block.holds(corners[c])} << c;
+    return bits;
+  }
+
+  bool make(const Index* corners, __m128* rows) const noexcept {
+    TriangleTerms<Float4> terms;
+    const Mask4 usual =
+        triangle_terms<W>(load_points(points, corners, 3), load_points(points, corners + 1, 3),
+                          load_points(points, corners + 2, 3), terms);
+    for (int k = 0; k < rows_of(W); ++k) {
+      const Rows four = to_rows(corner_term<W>(terms, terms.factor[k]), 1);
+      for (int i = 0; i < kSize; ++i) rows[i * rows_of(W) + k] = four.row[i];
+    }
+    return usual.lanes() == 15;
+  }
+};
+
+}  // namespace
+
+void fill_term_rows_sse(const Triangles& triangles, const Points& points, NormalWeight weight,
+                        TermRow* rows) noexcept {
+  with_weight(weight, [&](auto w) { fill_groups(triangles, points, Groups4<w()>{points}, rows); });
+}
+
+void add_terms_sse(const Triangles& triangles, const TermSums& to) noexcept {
+  with_weight(to.weight, [&](auto w) { add_all_groups(triangles, to, Groups4<w()>{to.points}); });
+}
+
+#else
+
+void fill_term_rows_sse(const Triangles& triangles, const Points& points, NormalWeight weight,
+                        TermRow* rows) noexcept {
+  fill_term_rows_scalar(triangles, points, weight, rows);
+}
+
+void add_terms_sse(const Triangles& triangles, const TermSums& to) noexcept {
+  add_terms_scalar(triangles, to);
+}
+
+#endif
+
+}  // namespace hedgerow::kernels
