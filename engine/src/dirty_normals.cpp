@@ -221,8 +221,13 @@ Result<NormalStats> update_vertex_normals(const Connectivity& mesh, Positions po
   }
   detail::GatherScratch scratch(plan, workspace);
   const kernels::FaceSource source(face_list(mesh));
-  kernels::GatherInput input{{positions},           options.weight,          mesh.origin().data(),
-                             mesh.halfedge_count(), mesh.is_triangle_mesh(), nullptr};
+  kernels::GatherInput input{{positions},
+                             options.weight,
+                             mesh.origin().data(),
+                             mesh.opposite().data(),
+                             mesh.halfedge_count(),
+                             mesh.is_triangle_mesh(),
+                             nullptr};
   if (kernels::Wide* vectors = scratch.face_vectors(); vectors != nullptr) {
     const std::span<const Index> faces = dirty.ring_faces();
     par::for_each_range(execution.with_grain(0), static_cast<Index>(faces.size()), kFaceGrain,
@@ -237,15 +242,17 @@ Result<NormalStats> update_vertex_normals(const Connectivity& mesh, Positions po
   }
   const kernels::NormalWriter writer{out, options.degenerate};
   const auto count = static_cast<Index>(vertices.size());
-  const Index task_count = (count - 1) / plan.grain + 1;
+  // No more tasks than of all vertices, of which there are at least kAllFrom times as many.
+  const Index grain = std::max<Index>(plan.grain / kAllFrom, 1);
+  const Index task_count = (count - 1) / grain + 1;
   return mesh.visit([&](const auto& view) {
     return par::reduce_tasks<NormalStats>(
         execution, task_count,
         [&](Index task, Index slot) {
           bool is_zero = false;
           kernels::IndexSet spill = scratch.spill(slot, view.halfedge_count(), is_zero);
-          const Index begin = task * plan.grain;
-          const Index size = count - begin < plan.grain ? count - begin : plan.grain;
+          const Index begin = task * grain;
+          const Index size = count - begin < grain ? count - begin : grain;
           return kernels::gather_normals(vertices.data() + begin, size, view, input, spill, writer);
         },
         kernels::merge);

@@ -22,7 +22,8 @@ NormalStats run(const View& view, const detail::GatherPlan& plan, detail::Gather
         kernels::IndexSet spill = scratch.spill(slot, view.halfedge_count(), is_zero);
         const Index begin = task * plan.grain;
         const Index end = vertices - begin < plan.grain ? vertices : begin + plan.grain;
-        return kernels::gather_normals({begin, end}, view, input, spill, writer);
+        kernels::TermWindow window = scratch.window(slot, input.weight);
+        return kernels::gather_normals({begin, end}, view, input, spill, window, writer);
       },
       kernels::merge);
 }
@@ -50,8 +51,13 @@ Result<NormalStats> gather_vertex_normals(const Connectivity& mesh, Positions po
                  static_cast<std::int64_t>(plan.scratch_bytes())});
   }
   detail::GatherScratch scratch(plan, workspace);
-  kernels::GatherInput input{{positions},           options.weight,          mesh.origin().data(),
-                             mesh.halfedge_count(), mesh.is_triangle_mesh(), nullptr};
+  kernels::GatherInput input{{positions},
+                             options.weight,
+                             mesh.origin().data(),
+                             mesh.opposite().data(),
+                             mesh.halfedge_count(),
+                             mesh.is_triangle_mesh(),
+                             nullptr};
   if (kernels::Wide* faces = scratch.face_vectors(); faces != nullptr) {
     const kernels::FaceSource source(face_list(mesh));
     par::for_each_range(execution.with_grain(0), mesh.face_count(), kFaceGrain,
@@ -61,7 +67,8 @@ Result<NormalStats> gather_vertex_normals(const Connectivity& mesh, Positions po
                         });
     input.faces = faces;
   }
-  // Not streamed: groups of 16 vertices are too few to wait for the end of their writes.
+  // Not streamed: few normals are written between so many reads that their lines are given up half
+  // full.
   const kernels::NormalWriter writer{out, options.degenerate};
   return mesh.visit(
       [&](const auto& view) { return run(view, plan, scratch, input, writer, execution); });

@@ -107,7 +107,8 @@ unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexc
 
 template <NormalWeight W>
 NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const GatherInput& input,
-                          IndexSet& spill, const NormalWriter& writer) noexcept {
+                          IndexSet& spill, TermWindow& window,
+                          const NormalWriter& writer) noexcept {
   NormalStats stats;
   auto fan = std::lower_bound(
       mesh.fans.begin(), mesh.fans.end(), range.begin,
@@ -115,7 +116,8 @@ NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const Gath
   Index i = range.begin;
   for (; i + kGroupSize <= range.end; i += kGroupSize) {
     const unsigned wanted = with_one_fan(i, mesh.fans, fan);
-    unsigned left = gather_group_avx2<W>(i, wanted, mesh, input, writer) | (kWholeGroup & ~wanted);
+    unsigned left =
+        gather_group_avx2<W>(i, wanted, mesh, input, window, writer) | (kWholeGroup & ~wanted);
     for (; left != 0; left &= left - 1) {
       gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, writer, stats);
     }
@@ -188,16 +190,17 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 }
 
 NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
-                           IndexSet& spill, const NormalWriter& writer) noexcept {
+                           IndexSet& spill, TermWindow& window,
+                           const NormalWriter& writer) noexcept {
   const bool is_fast = suits_avx2(input.points);
   return with_weight(input.weight, [&](auto w) {
-    return is_fast ? gather_groups<w()>(range, mesh, input, spill, writer)
+    return is_fast ? gather_groups<w()>(range, mesh, input, spill, window, writer)
                    : gather<w()>(range, mesh, input, spill, writer);
   });
 }
 
 NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const GatherInput& input,
-                           IndexSet& spill, const NormalWriter& writer) noexcept {
+                           IndexSet& spill, TermWindow&, const NormalWriter& writer) noexcept {
   return with_weight(input.weight,
                      [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
 }

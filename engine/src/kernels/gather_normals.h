@@ -3,6 +3,7 @@
 #include "hedgerow/topology.h"
 #include "kernels/normals_source.h"
 #include "kernels/one_ring.h"
+#include "kernels/term_window.h"
 
 /// Vertex normals by walking round each vertex.
 namespace hedgerow::kernels {
@@ -11,6 +12,7 @@ struct GatherInput {
   Points points;
   NormalWeight weight{};
   const Index* origin = nullptr;
+  const Index* opposite = nullptr;
   Index halfedge_count = 0;
   /// Half-edge 3f + k leaves corner k of face f: faces are arithmetic.
   bool is_triangles = false;
@@ -23,13 +25,13 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
                        NormalWeight weight, PolygonMethod method, Wide* out) noexcept;
 
 /// Writes the normals of the vertices in `range`; each vertex writes its own element. `spill` is
-/// empty, holds all half-edges, and is used by one call at a time.
+/// empty, holds all half-edges, and is used by one call at a time, as is the window.
 [[nodiscard]] NormalStats gather_normals(IndexRange range, const TriangleView& mesh,
                                          const GatherInput& input, IndexSet& spill,
-                                         const NormalWriter& writer) noexcept;
+                                         TermWindow& window, const NormalWriter& writer) noexcept;
 [[nodiscard]] NormalStats gather_normals(IndexRange range, const PolygonView& mesh,
                                          const GatherInput& input, IndexSet& spill,
-                                         const NormalWriter& writer) noexcept;
+                                         TermWindow& window, const NormalWriter& writer) noexcept;
 
 /// The same for `count` vertices by their ids, each once.
 [[nodiscard]] NormalStats gather_normals(const Index* ids, Index count, const TriangleView& mesh,
@@ -61,7 +63,7 @@ inline constexpr unsigned kWholeGroup = ~0U >> (32 - kGroupSize);  // a bit for 
 ///      one fan at the most. Positions lie within 2^31 floats.
 template <NormalWeight W>
 [[nodiscard]] unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
-                                         const GatherInput& input,
+                                         const GatherInput& input, TermWindow& window,
                                          const NormalWriter& writer) noexcept;
 
 /// The same for kGroupSize vertices by their ids.

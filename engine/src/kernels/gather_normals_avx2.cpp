@@ -68,7 +68,7 @@ struct Listed {
 };
 
 template <class Place>
-void walk(const Place& place, const TriangleView& mesh, Rings* rings) noexcept {
+void walk(const Place& place, const TriangleView& mesh, Rings (&rings)[kGroups]) noexcept {
   const __m256i none = _mm256_set1_epi32(kNone);
   __m256i start[kGroups];
   __m256i at[kGroups];
@@ -78,7 +78,10 @@ void walk(const Place& place, const TriangleView& mesh, Rings* rings) noexcept {
     at[g] = start[g];
     walks[g] = _mm256_cmpgt_epi32(start[g], _mm256_set1_epi32(-1));
   }
-  for (int r = 0; r < kMostCorners; ++r) {
+  __m256i any = none;
+  int r = 0;
+  for (; r < kMostCorners && _mm256_testz_si256(any, any) == 0; ++r) {
+    any = _mm256_setzero_si256();
     for (int g = 0; g < kGroups; ++g) {
       rings[g].row[r] = _mm256_blendv_epi8(none, at[g], walks[g]);
       const __m256i opposite = gather(mesh.opposite.data(), at[g], walks[g]);
@@ -86,7 +89,11 @@ void walk(const Place& place, const TriangleView& mesh, Rings* rings) noexcept {
       const __m256i has_opposite = _mm256_cmpgt_epi32(opposite, _mm256_set1_epi32(-1));
       const __m256i is_back = _mm256_cmpeq_epi32(at[g], start[g]);
       walks[g] = _mm256_and_si256(walks[g], _mm256_andnot_si256(is_back, has_opposite));
+      any = _mm256_or_si256(any, walks[g]);
     }
+  }
+  for (; r < kMostCorners; ++r) {
+    for (Rings& eight : rings) eight.row[r] = none;
   }
   for (int g = 0; g < kGroups; ++g) rings[g].is_left = walks[g];
 }
@@ -146,6 +153,77 @@ int add_rows(const Rings& rings, const GatherInput& input, const Loader& loader,
   return ~usual & 0xff;
 }
 
+// The face of each half-edge: of the three numbers it can be, by where in its face the half-edge
+// is, the wrong ones are not below a third of all numbers.
+__m256i face_of(__m256i h) noexcept {
+  const __m256i inverse = times_inverse(_mm256_set1_epi32(1));
+  const __m256i first = times_inverse(h);
+  const __m256i second = _mm256_sub_epi32(first, inverse);
+  const __m256i third = _mm256_sub_epi32(second, inverse);
+  return _mm256_min_epu32(first, _mm256_min_epu32(second, third));
+}
+
+int smallest_lane(__m256i v) noexcept {
+  __m128i half = _mm_min_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
+  half = _mm_min_epi32(half, _mm_shuffle_epi32(half, 0x4e));
+  return _mm_cvtsi128_si32(_mm_min_epi32(half, _mm_shuffle_epi32(half, 0xb1)));
+}
+
+// Adds `count` rows for each of eight vertices, which lie so many bytes behind `rows`, in the order
+// of the places.
+Vec3<Float8> add_places(const TermRow* rows, const int* places, int count) noexcept {
+  const auto* base = reinterpret_cast<const char*>(rows);
+  __m128 s0 = _mm_setzero_ps();
+  __m128 s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (const int* p = places; p != places + count * kLanes; p += kLanes) {
+    const auto add = [&](__m128& to, int i) {
+      const auto* row = reinterpret_cast<const float*>(base + static_cast<unsigned>(p[i]));
+      to = _mm_add_ps(to, _mm_load_ps(row));
+    };
+    add(s0, 0), add(s1, 1), add(s2, 2), add(s3, 3);
+    add(s4, 4), add(s5, 5), add(s6, 6), add(s7, 7);
+  }
+  const auto pair = [](__m128 low, __m128 high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+  };
+  return to_lanes(pair(s0, s4), pair(s1, s5), pair(s2, s6), pair(s3, s7));
+}
+
+// The same from a window, if that reaches all faces of these rings. The corners of a vertex are
+// added as rows, one vertex after the other; lanes without a corner add zeros.
+template <NormalWeight W>
+bool add_from_window(const Rings& rings, TermWindow& window, const GatherInput& input,
+                     Vec3<Float8>& sum) noexcept {
+  const __m256i none = _mm256_set1_epi32(kNone);
+  __m256i largest = _mm256_setzero_si256();
+  int count = 0;
+  for (; count < kMostCorners; ++count) {
+    const __m256i is_none = _mm256_cmpeq_epi32(rings.row[count], none);
+    if (_mm256_movemask_epi8(is_none) == -1) break;
+    largest = _mm256_max_epi32(largest, _mm256_andnot_si256(is_none, rings.row[count]));
+  }
+  if (count == 0) return false;
+  const int high = ~smallest_lane(_mm256_xor_si256(largest, _mm256_set1_epi32(-1)));
+  if (!window.reach(smallest_lane(rings.row[0]) / 3, high / 3, input)) return false;
+
+  alignas(32) int places[kMostCorners * kLanes];
+  const __m256i mask = _mm256_set1_epi32(static_cast<int>(window.capacity() - 1));
+  const __m256i zero_row = _mm256_set1_epi32(static_cast<int>(window.zero_row()));
+  for (int r = 0; r < count; ++r) {
+    const __m256i h = rings.row[r];
+    const __m256i face = face_of(h);
+    __m256i row = _mm256_and_si256(face, mask);
+    if constexpr (rows_of(W) == 3) {
+      const __m256i turns = _mm256_andnot_si256(mask, face);  // faces that wrap round as a whole
+      row = _mm256_sub_epi32(h, _mm256_add_epi32(_mm256_add_epi32(turns, turns), turns));
+    }
+    row = _mm256_blendv_epi8(row, zero_row, _mm256_cmpeq_epi32(h, none));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(places + r * kLanes), _mm256_slli_epi32(row, 4));
+  }
+  sum = add_places(window.rows(), places, count);
+  return true;
+}
+
 // Writes the lanes that are in `wanted` and have a direction; returns those that have none.
 template <class Place>
 unsigned write_units(const Place& place, int g, const Vec3<Float8>& sum, unsigned wanted,
@@ -170,9 +248,10 @@ unsigned write_units(const Place& place, int g, const Vec3<Float8>& sum, unsigne
   return wanted & ~good;
 }
 
-template <NormalWeight W, class Place>
+template <NormalWeight W, class Place, class Loader>
 unsigned gather_group(const Place& place, unsigned wanted, const TriangleView& mesh,
-                      const GatherInput& input, const NormalWriter& writer) noexcept {
+                      const GatherInput& input, TermWindow& window, const Loader& loader,
+                      const NormalWriter& writer) noexcept {
   Rings rings[kGroups];
   walk(place, mesh, rings);
   unsigned left = 0;
@@ -180,13 +259,12 @@ unsigned gather_group(const Place& place, unsigned wanted, const TriangleView& m
   for (int g = 0; g < kGroups; ++g) {
     sort_rows(rings[g].row);
     Vec3<Float8> sum;
-    const auto unusual = static_cast<unsigned>(with_loader(input.points, [&](const auto& loader) {
-      return add_rows<W>(rings[g], input, loader, sum);
-    }));
+    const bool is_added = window.capacity() > 0 && add_from_window<W>(rings[g], window, input, sum);
+    const int unusual = is_added ? 0 : add_rows<W>(rings[g], input, loader, sum);
     const auto large =
         static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(rings[g].is_left)));
     const unsigned here = wanted >> g * kLanes & 0xff;
-    const unsigned simple = here & ~(unusual | large);
+    const unsigned simple = here & ~(static_cast<unsigned>(unusual) | large);
     const unsigned flat = write_units(place, g, sum, simple, writer, writer8);
     left |= ((here & ~simple) | flat) << g * kLanes;
   }
@@ -197,21 +275,27 @@ unsigned gather_group(const Place& place, unsigned wanted, const TriangleView& m
 
 template <NormalWeight W>
 unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
-                           const GatherInput& input, const NormalWriter& writer) noexcept {
-  return gather_group<W>(InRow{first}, wanted, mesh, input, writer);
+                           const GatherInput& input, TermWindow& window,
+                           const NormalWriter& writer) noexcept {
+  return with_loader(input.points, [&](const auto& loader) {
+    return gather_group<W>(InRow{first}, wanted, mesh, input, window, loader, writer);
+  });
 }
 
 template <NormalWeight W>
 unsigned gather_listed_avx2(const Index* ids, unsigned wanted, const TriangleView& mesh,
                             const GatherInput& input, const NormalWriter& writer) noexcept {
-  return gather_group<W>(Listed{ids}, wanted, mesh, input, writer);
+  TermWindow none;
+  return with_loader(input.points, [&](const auto& loader) {
+    return gather_group<W>(Listed{ids}, wanted, mesh, input, none, loader, writer);
+  });
 }
 
 #else
 
 template <NormalWeight W>
 unsigned gather_group_avx2(Index, unsigned wanted, const TriangleView&, const GatherInput&,
-                           const NormalWriter&) noexcept {
+                           TermWindow&, const NormalWriter&) noexcept {
   return wanted;
 }
 
@@ -224,16 +308,16 @@ unsigned gather_listed_avx2(const Index*, unsigned wanted, const TriangleView&, 
 #endif
 
 template unsigned gather_group_avx2<NormalWeight::uniform>(Index, unsigned, const TriangleView&,
-                                                           const GatherInput&,
+                                                           const GatherInput&, TermWindow&,
                                                            const NormalWriter&) noexcept;
 template unsigned gather_group_avx2<NormalWeight::area>(Index, unsigned, const TriangleView&,
-                                                        const GatherInput&,
+                                                        const GatherInput&, TermWindow&,
                                                         const NormalWriter&) noexcept;
 template unsigned gather_group_avx2<NormalWeight::angle>(Index, unsigned, const TriangleView&,
-                                                         const GatherInput&,
+                                                         const GatherInput&, TermWindow&,
                                                          const NormalWriter&) noexcept;
 template unsigned gather_group_avx2<NormalWeight::max>(Index, unsigned, const TriangleView&,
-                                                       const GatherInput&,
+                                                       const GatherInput&, TermWindow&,
                                                        const NormalWriter&) noexcept;
 
 template unsigned gather_listed_avx2<NormalWeight::uniform>(const Index*, unsigned,

@@ -1,0 +1,187 @@
+// What corners add, as rows: each form of the kernels against the plain one, and the window over
+// the faces against rows made for each face alone.
+
+#include "kernels/term_rows.h"
+
+#include <cstring>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hedgerow/buffer.h"
+#include "kernels/gather_normals.h"
+#include "support/normal_meshes.h"
+
+namespace hedgerow {
+namespace {
+
+using kernels::NormalWriter;
+using kernels::TermRow;
+using kernels::Triangles;
+
+constexpr float kScales[] = {1.0F, 1e-25F, 1e18F, 1e30F};
+
+// Random triangles over few vertices, some of them degenerate, some too small or too large for
+// float; the last vertex is among them.
+Soup random_triangles(unsigned seed, Index count) {
+  Soup soup = test::random_soup(seed, 40, count, 3);
+  std::mt19937 random(seed);
+  for (float& x : soup.xyz.span()) x *= kScales[random() % 8 < 5 ? 0 : random() % 4];
+  for (Index f = 0; f < count; f += 11) soup.corners[3 * f] = soup.corners[3 * f + 1];
+  if (count > 0) soup.corners[3 * (count - 1)] = 39;
+  return soup;
+}
+
+bool same_terms(std::span<const TermRow> a, std::span<const TermRow> b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const bool is_nan = a[i].term.x != a[i].term.x && b[i].term.x != b[i].term.x;
+    if (!is_nan && std::memcmp(&a[i].term, &b[i].term, sizeof(kernels::Float3)) != 0) return false;
+    if ((a[i].count > 0) != (b[i].count > 0)) return false;
+  }
+  return a.size() == b.size();
+}
+
+struct Form {
+  const char* name;
+  decltype(&kernels::fill_term_rows_scalar) fill;
+  decltype(&kernels::add_terms_scalar) add;
+};
+
+std::vector<Form> forms(const kernels::Points& points) {
+  std::vector<Form> all = {{"sse", kernels::fill_term_rows_sse, kernels::add_terms_sse}};
+  if (kernels::suits_avx2(points)) {
+    all.push_back({"avx2", kernels::fill_term_rows_avx2, kernels::add_terms_avx2});
+  }
+  return all;
+}
+
+TEST(TermRows, AreTheSameInEveryForm) {
+  for (const Index count : {0, 1, 3, 7, 8, 9, 40, 63, 64, 65, 200}) {
+    const Soup soup = random_triangles(static_cast<unsigned>(count) + 1, count);
+    const kernels::Points points{soup.positions()};
+    const Triangles triangles{soup.corners.data(), count, 3 * count};
+    for (const NormalWeight weight : test::kWeights) {
+      const auto rows = static_cast<std::size_t>(count * kernels::rows_of(weight));
+      Buffer<TermRow> expected(rows);
+      kernels::fill_term_rows_scalar(triangles, points, weight, expected.data());
+      for (const Form& form : forms(points)) {
+        Buffer<TermRow> found(rows);
+        form.fill(triangles, points, weight, found.data());
+        EXPECT_TRUE(same_terms(expected.span(), found.span()))
+            << form.name << ", " << count << " triangles, " << static_cast<int>(weight);
+      }
+    }
+  }
+}
+
+TEST(TermRows, AddUpTheSameInEveryFormInsideABlockAndAcross) {
+  const Index count = 150;
+  const Soup soup = random_triangles(5, count);
+  const kernels::Points points{soup.positions()};
+  const Triangles triangles{soup.corners.data(), count, 3 * count};
+  for (const NormalWeight weight : test::kWeights) {
+    for (const IndexRange range : {IndexRange{0, 40}, IndexRange{7, 19}, IndexRange{39, 40}}) {
+      const bool is_inside = range.size() == 40;
+      const auto sums_of = [&](auto add) {
+        Buffer<TermRow> sums(static_cast<std::size_t>(range.size()), TermRow{});
+        add(triangles, {points, weight, {range.begin, range.size(), sums.data()}, is_inside});
+        return sums;
+      };
+      const Buffer<TermRow> expected = sums_of(kernels::add_terms_scalar);
+      for (const Form& form : forms(points)) {
+        EXPECT_TRUE(same_terms(expected.span(), sums_of(form.add).span()))
+            << form.name << ", weight " << static_cast<int>(weight) << ", from " << range.begin;
+      }
+    }
+  }
+}
+
+class Window : public testing::Test {
+ protected:
+  // Asks for [low, high] and, if it is granted, looks at every row of it.
+  bool reach(kernels::TermWindow& window, Index low, Index high) {
+    if (!window.reach(low, high, input_)) return false;
+    const int rows = kernels::rows_of(input_.weight);
+    for (Index f = low; f <= high; ++f) {
+      TermRow expected[3];
+      kernels::fill_term_rows_scalar({soup_.corners.data() + 3 * f, 1}, input_.points,
+                                     input_.weight, expected);
+      const TermRow* found = window.rows() + (f & (window.capacity() - 1)) * rows;
+      const auto size = static_cast<std::size_t>(rows);
+      EXPECT_TRUE(same_terms({expected, size}, {found, size})) << "face " << f;
+    }
+    return true;
+  }
+
+  kernels::TermWindow window_over(Index capacity) {
+    memory_ = Buffer<std::byte>(kernels::TermWindow::bytes(capacity, input_.weight));
+    return {memory_.data(), capacity, input_.weight};
+  }
+
+  static constexpr Index kFaces = 5000;
+
+  Soup soup_ = random_triangles(9, kFaces);
+  Buffer<Index> opposite_ = Buffer<Index>(3 * kFaces, kInvalidIndex);
+  kernels::GatherInput input_{{soup_.positions()}, NormalWeight::area, soup_.corners.data(),
+                              opposite_.data(),    3 * kFaces,         true};
+  Buffer<std::byte> memory_;
+};
+
+TEST_F(Window, HoldsWhatItReaches) {
+  for (const NormalWeight weight : test::kWeights) {
+    input_.weight = weight;
+    for (const Index capacity : {64, 256, 4096}) {
+      kernels::TermWindow window = window_over(capacity);
+      std::mt19937 random(static_cast<unsigned>(capacity));
+      int granted = 0;
+      for (int i = 0; i < 400; ++i) {
+        const auto middle = static_cast<Index>(i * (kFaces / 400) + random() % 100);
+        const Index low = std::max<Index>(0, middle - static_cast<Index>(random() % 40));
+        const Index high = std::min<Index>(kFaces - 1, middle + static_cast<Index>(random() % 20));
+        granted += static_cast<int>(reach(window, low, std::max(low, high)));
+      }
+      EXPECT_GT(granted, 50) << "capacity " << capacity;
+    }
+  }
+}
+
+TEST_F(Window, SlidesOverAllFacesOfALocalOrder) {
+  kernels::TermWindow window = window_over(1024);
+  // Eight vertices at a time meet sixteen faces more, and those of a row before.
+  for (Index f = 0; f + 16 <= kFaces; f += 16) {
+    EXPECT_TRUE(reach(window, std::max<Index>(0, f - 500), f + 15)) << f;
+  }
+}
+
+TEST_F(Window, RefusesFacesThatLieTooFarApart) {
+  kernels::TermWindow window = window_over(256);
+  EXPECT_FALSE(reach(window, 0, 1000));
+  EXPECT_TRUE(reach(window, 100, 200));
+}
+
+// Jumps all over the mesh: what has been earned is spent soon, then one jump in so many is paid for.
+TEST_F(Window, PaysForJumpsInABadOrder) {
+  kernels::TermWindow window = window_over(256);
+  std::mt19937 random(3);
+  int granted = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto f = static_cast<Index>(random() % (kFaces - 150));
+    granted += static_cast<int>(reach(window, f, f + 140));
+  }
+  EXPECT_GT(granted, 50);
+  EXPECT_LT(granted, 300);  // each takes 192 faces or more, and earns 32
+}
+
+TEST_F(Window, EndsInARowOfZeros) {
+  const kernels::TermWindow window = window_over(64);
+  const TermRow& zero = window.rows()[window.zero_row()];
+  EXPECT_EQ(zero.term.x, 0);
+  EXPECT_EQ(zero.term.y, 0);
+  EXPECT_EQ(zero.term.z, 0);
+  EXPECT_EQ(zero.count, 0);
+}
+
+}  // namespace
+}  // namespace hedgerow
