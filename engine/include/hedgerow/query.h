@@ -107,9 +107,13 @@ struct Components {
 /// number of threads.
 ///
 /// Shapes     `labels`: one a vertex.
-/// Complexity O(V + H) joins, each O(log V) at the worst and a few steps in practice. `origin` and
-///            `outgoing` are read once. Two threads are used from 262,144 faces on.
-/// Scratch    Nothing for one run; an index a vertex for each further thread, and a little.
+/// Complexity Where each vertex but the first has a smaller neighbour, as in a grid, one pass over
+///            the vertices: `outgoing` is read once and in `origin` a face a vertex; `opposite` is
+///            read round vertices without a smaller one in that face. Otherwise O(V + H) joins,
+///            each O(log V) at the worst and a few steps in practice: `origin` is read once more,
+///            by two threads from 262,144 faces on, and `outgoing` twice.
+/// Scratch    Nothing for one run of joins; an index a vertex for each further thread, and a
+///            little. It is wanted also where it turns out not to be needed.
 /// Errors     count_mismatch: not one label a vertex; scratch_too_small: a fixed workspace is. The
 ///            labels are as they were.
 /// Threads    Writes `labels` and the workspace, reads the mesh.

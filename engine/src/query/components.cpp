@@ -1,8 +1,13 @@
-// Each thread joins a run of faces in trees of its own, over all vertices; then the trees are
-// joined two by two. A root is the smallest vertex of its set whatever the order of the joins, so
-// neither the number of runs nor the schedule shows in the labels.
+// Where every vertex but the first has a smaller neighbour, all are connected, and a pass over the
+// vertices that looks at one face of each has shown it: so it is in grids and wherever vertices are
+// numbered as a front passes over the surface. The first vertex without one ends that pass.
+//
+// Otherwise each thread joins a run of faces in trees of its own, over all vertices; then the trees
+// are joined two by two. A root is the smallest vertex of its set whatever the order of the joins,
+// so neither the number of runs nor the schedule shows in the labels.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +16,7 @@
 #include "hedgerow/assert.h"
 #include "hedgerow/query.h"
 #include "kernels/join_sets.h"
+#include "kernels/smaller_neighbours.h"
 #include "parallel/parallel.h"
 
 namespace hedgerow {
@@ -21,6 +27,19 @@ constexpr Index kGrain = 1 << 17;  // faces a run: fewer take no longer than sta
 constexpr Index kChunk = 1 << 14;  // vertices that are joined or labelled at a time
 
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+// Whether the vertices are one component, as far as their numbers show it; then it is labelled, and
+// `root`, the first vertex that is not isolated, is its smallest.
+template <Topology Mesh>
+bool label_one_component(const Mesh& mesh, Index root, Index* label, const Execution& execution) {
+  std::atomic<bool> is_shown = true;
+  par::for_each_range(execution, mesh.vertex_count(), kChunk, [&](IndexRange range) {
+    if (!is_shown.load(std::memory_order_relaxed)) return;
+    if (kernels::label_with_root(range, root, mesh, label)) return;
+    is_shown.store(false, std::memory_order_relaxed);
+  });
+  return is_shown.load(std::memory_order_relaxed);
+}
 
 // The last of `run_count` runs also has the half-edges without a face, which only the closed form
 // has; an edge with such half-edges on both sides lies on no face.
@@ -111,6 +130,10 @@ Result<Index> connected_components(const Connectivity& mesh, std::span<Index> la
   }
   const Trees trees(run_count, labels, workspace.data());
   return mesh.visit([&](const auto& view) {
+    const Index root = kernels::find_used_vertex(view);
+    if (label_one_component(view, root, labels.data(), execution)) {
+      return static_cast<Index>(root < view.vertex_count());
+    }
     par::for_each_task(execution, run_count,
                        [&](Index run, Index) { join_run(run, run_count, view, trees.of(run)); });
     trees.join(execution);
