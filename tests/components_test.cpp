@@ -1,13 +1,18 @@
 // connected_components: each way it may go, against a flood of a slow mesh.
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hedgerow/build.h"
 #include "hedgerow/query.h"
+#include "hedgerow/shapes.h"
+#include "kernels/join_sets.h"
 #include "kernels/smaller_neighbours.h"
 #include "support/meshes.h"
+#include "support/random_faces.h"
 #include "support/reference_mesh.h"
 #include "support/threads.h"
 
@@ -117,6 +122,48 @@ TEST(Components, AreShownByFansOfAVertexThatOutgoingDoesNotStart) {
   const PlainFaces list{{{2, 3, 4}, {0, 1, 2}}, 5};
   EXPECT_TRUE(is_shown_by_numbers(list));
   expect_components(list);
+}
+
+// Fewer faces than it takes to be scattered are joined as such by the kernel itself.
+TEST(Components, AreTheSameByBothWaysOfJoiningFaces) {
+  for (std::uint64_t seed = 0; seed < 500 && !HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const ReferenceMesh open = random_reference_mesh(seed);
+    const Connectivity mesh = to_connectivity(open);
+    Numbers local(at(mesh.vertex_count()));
+    Numbers scattered = local;
+    mesh.visit([&](const auto& view) {
+      const IndexRange vertices{0, view.vertex_count()};
+      const IndexRange faces{0, view.face_count()};
+      kernels::fill_singletons(vertices, local.data());
+      kernels::fill_singletons(vertices, scattered.data());
+      kernels::join_faces<false>(faces, view, local.data());
+      kernels::join_faces<true>(faces, view, scattered.data());
+      (void)kernels::label_roots(vertices, view, local.data());
+      (void)kernels::label_roots(vertices, view, scattered.data());
+    });
+    const Numbers expected = reference_components(open);
+    EXPECT_EQ(local, expected);
+    EXPECT_EQ(scattered, expected);
+  }
+}
+
+TEST(Components, OfScatteredFacesAreLabelledTheSameForEveryThreadCount) {
+  const Soup faces = shapes::shuffled(*shapes::grid(400, 400), 1);
+  const auto output = build(faces.face_list(), {}, Execution::serial());
+  ASSERT_TRUE(output);
+  const Connectivity& mesh = output->mesh;
+  EXPECT_TRUE(mesh.visit([](const auto& view) { return kernels::has_scattered_faces(view); }));
+  for (const int count : kThreadCounts) {
+    Threads threads(count);
+    const Components found = connected_components(mesh, threads.execution(20'000));
+    EXPECT_EQ(found.count, 1);
+    EXPECT_EQ(to_vector(found.label), Numbers(at(mesh.vertex_count()), 0)) << count;
+  }
+  const auto ordered = build(shapes::grid(400, 400)->face_list(), {}, Execution::serial());
+  ASSERT_TRUE(ordered);
+  EXPECT_FALSE(
+      ordered->mesh.visit([](const auto& view) { return kernels::has_scattered_faces(view); }));
 }
 
 }  // namespace

@@ -203,6 +203,15 @@ TEST_P(Races, LeaveNoTraceInValidationAndCounts) {
             count_edges(built->mesh, Execution::serial()));
 }
 
+TEST_P(Races, LeaveNoTraceInComponents) {
+  const auto built = build(faces_.list(), {}, Execution::serial());
+  ASSERT_TRUE(built);
+  const Components alone = connected_components(built->mesh);
+  const Components together = connected_components(built->mesh, plain_threads().with_grain(500));
+  EXPECT_EQ(together.count, alone.count);
+  expect_same(together.label.span(), alone.label.span());
+}
+
 TEST_P(Races, LeaveNoTraceInNormals) {
   const auto built = build(faces_.list(), {}, Execution::serial());
   ASSERT_TRUE(built);

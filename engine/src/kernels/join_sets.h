@@ -31,38 +31,75 @@ inline void join_sets(Index* parent, Index a, Index b) noexcept {
   (a < b ? parent[b] : parent[a]) = a < b ? a : b;
 }
 
-/// Joins the vertices of each face in `faces`. In a local order most corners hang on the same
-/// number as the first one already, or are met for the first time and can be hung there as they
-/// are: a store, without a branch. What is left is joined by its roots, and hung on them, so that
-/// later walks are short.
-template <Topology Mesh>
+/// Makes one set of those of `a`, `b` and `c`. Mostly what they hang on are roots, and these are
+/// joined without a branch; all end up hanging on the new root. In a local order they often hang on
+/// one number already, and then nothing is done. In a scattered order that is rare, and where it is
+/// not the case a root is a step higher up.
+template <bool is_scattered>
+void join_three(Index* parent, Index a, Index b, Index c) noexcept {
+  Index p = parent[a];
+  Index q = parent[b];
+  Index r = parent[c];
+  if constexpr (is_scattered) {
+    p = parent[p];
+    q = parent[q];
+    r = parent[r];
+  } else if (p == q && q == r) {
+    return;
+  }
+  if (parent[p] != p || parent[q] != q || parent[r] != r) {
+    p = find_root(parent, p);
+    q = find_root(parent, q);
+    r = find_root(parent, r);
+  }
+  const Index smaller = p < q ? p : q;
+  const Index root = smaller < r ? smaller : r;
+  parent[p] = parent[q] = parent[r] = root;
+  parent[a] = parent[b] = parent[c] = root;
+}
+
+/// Joins the vertices of each face in `faces`. In a scattered order this waits for parents, and so
+/// asks for them ahead.
+template <bool is_scattered, Topology Mesh>
 void join_faces(IndexRange faces, const Mesh& mesh, Index* parent) noexcept {
-  const Index* first_corner = mesh.origin.data();
+  constexpr Index kAhead = 48;  // half-edges: the latency of memory behind 16 triangles
+  const Index* origin = mesh.origin.data();
   for (Index i = faces.begin; i < faces.end; ++i) {
     const Index begin = mesh.first(FaceId(i)).value;
-    const Index end = begin + mesh.degree(FaceId(i));
-    const auto corner = [&](Index h) { return mesh.origin[HalfedgeId(h)].value; };
-    prefetch_ahead(first_corner + begin);
-    const Index shared = parent[corner(begin)];
-    bool is_joined = true;
-    for (Index h = begin + 1; h < end; ++h) {
-      const Index v = corner(h);
-      const Index above = parent[v];
-      const bool is_new = (above == v) & (shared < v);
-      const Index now = is_new ? shared : above;
-      parent[v] = now;
-      is_joined &= now == shared;
+    const Index last = begin + mesh.degree(FaceId(i)) - 1;
+    prefetch_ahead(origin + begin);
+    if (is_scattered && last < mesh.halfedge_count() - kAhead) {
+      for (Index h = begin; h <= last; ++h) __builtin_prefetch(parent + origin[h + kAhead], 1);
     }
-    if (is_joined) continue;
-    Index smallest = find_root(parent, shared);
-    for (Index h = begin + 1; h < end; ++h) {
-      const Index root = find_root(parent, parent[corner(h)]);
-      const Index larger = root < smallest ? smallest : root;
-      smallest = root < smallest ? root : smallest;
-      parent[larger] = smallest;
+    for (Index h = begin + 1; h <= last; h += 2) {
+      const Index third = h < last ? h + 1 : h;
+      join_three<is_scattered>(parent, origin[begin], origin[h], origin[third]);
     }
-    for (Index h = begin; h < end; ++h) parent[corner(h)] = smallest;
   }
+}
+
+/// Whether most faces have no corner near one of the face before, by some 256 of them. Where there
+/// are few vertices some of them are near in any order, and a cache holds all parents.
+template <Topology Mesh>
+[[nodiscard]] bool has_scattered_faces(const Mesh& mesh) noexcept {
+  constexpr Index kSamples = 256;
+  constexpr Index kNear = 1 << 11;  // vertices: their parents lie on two or three pages
+  const Index step = mesh.face_count() / kSamples + 1;
+  Index far_count = 0;
+  Index count = 0;
+  for (Index i = 1; i < mesh.face_count(); i += step) {
+    const Index h = mesh.first(FaceId(i)).value;
+    const Index before = mesh.first(FaceId(i - 1)).value;
+    bool is_far = true;
+    for (Index k = 0; k < 9; ++k) {
+      const Index distance =
+          mesh.origin[HalfedgeId(h + k / 3)].value - mesh.origin[HalfedgeId(before + k % 3)].value;
+      is_far &= distance > kNear || distance < -kNear;
+    }
+    far_count += static_cast<Index>(is_far);
+    ++count;
+  }
+  return 2 * far_count > count;
 }
 
 /// Joins the ends of each half-edge in `halfedges`.
@@ -91,7 +128,9 @@ void join_halfedges(IndexRange halfedges, const Mesh& mesh, Index* parent) noexc
 
 /// Joins the rest of what `other` has joined in `range`.
 inline void join_trees(IndexRange range, const Index* other, Index* parent) noexcept {
+  constexpr Index kAhead = 32;  // numbers
   for (Index i = range.begin; i < range.end; ++i) {
+    if (range.end - i > kAhead) __builtin_prefetch(parent + other[i + kAhead], 1);
     if (other[i] != i) join_sets(parent, i, other[i]);
   }
 }

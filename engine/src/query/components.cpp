@@ -44,9 +44,15 @@ bool label_one_component(const Mesh& mesh, Index root, Index* label, const Execu
 // The last of `run_count` runs also has the half-edges without a face, which only the closed form
 // has; an edge with such half-edges on both sides lies on no face.
 template <Topology Mesh>
-void join_run(Index run, Index run_count, const Mesh& mesh, Index* parent) noexcept {
+void join_run(Index run, Index run_count, const Mesh& mesh, bool is_scattered,
+              Index* parent) noexcept {
   kernels::fill_singletons({0, mesh.vertex_count()}, parent);
-  kernels::join_faces(par::share_of(run, run_count, mesh.face_count()), mesh, parent);
+  const IndexRange faces = par::share_of(run, run_count, mesh.face_count());
+  if (is_scattered) {
+    kernels::join_faces<true>(faces, mesh, parent);
+  } else {
+    kernels::join_faces<false>(faces, mesh, parent);
+  }
   if (run + 1 < run_count) return;
   const Index side_count = mesh.face_count() == 0 ? 0 : mesh.first(FaceId(mesh.face_count())).value;
   kernels::join_halfedges({side_count, mesh.halfedge_count()}, mesh, parent);
@@ -134,8 +140,10 @@ Result<Index> connected_components(const Connectivity& mesh, std::span<Index> la
     if (label_one_component(view, root, labels.data(), execution)) {
       return static_cast<Index>(root < view.vertex_count());
     }
-    par::for_each_task(execution, run_count,
-                       [&](Index run, Index) { join_run(run, run_count, view, trees.of(run)); });
+    const bool is_scattered = kernels::has_scattered_faces(view);
+    par::for_each_task(execution, run_count, [&](Index run, Index) {
+      join_run(run, run_count, view, is_scattered, trees.of(run));
+    });
     trees.join(execution);
     return par::reduce<Index>(
         execution, view.vertex_count(), kChunk,
