@@ -67,12 +67,13 @@ Reordering choose_order(const Connectivity& mesh, const Positions& positions, Re
 template <Topology OldMesh>
 class Renumbering {
  public:
-  Renumbering(const OldMesh& mesh, Reordering& order, bool is_triangles, const Execution& execution)
+  Renumbering(const OldMesh& mesh, const Reordering& order, bool is_triangles,
+              const Execution& execution)
       : mesh_(mesh), order_(order), is_triangles_(is_triangles), execution_(execution) {}
 
   Connectivity run() {
-    number_halfedges();
-    pair();
+    number_faces();
+    gather_columns();
     ConnectivityColumns columns;
     if (is_triangles_) {
       start_fans(TriangleView{column<VertexId>(origin_), column<HalfedgeId>(opposite_), {}, {}});
@@ -103,8 +104,7 @@ class Renumbering {
     return {values.data(), static_cast<Index>(values.size())};
   }
 
-  void number_halfedges() {
-    const auto halfedges = static_cast<std::size_t>(mesh_.halfedge_count());
+  void number_faces() {
     if (!is_triangles_) {
       first_ = Buffer<Index>(order_.faces_new_to_old.size() + 1);
       Index h = 0;
@@ -114,21 +114,24 @@ class Renumbering {
       }
       first_[order_.faces_new_to_old.size()] = h;
     }
-    order_.halfedges_new_to_old = Buffer<Index>(halfedges);
-    origin_ = Buffer<Index>(halfedges);
-    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
-      kernels::gather_halfedges(faces, mesh_, order_.faces_new_to_old.data(), first_.data(),
-                                order_.vertices_old_to_new.data(),
-                                order_.halfedges_new_to_old.data(), origin_.data());
-    });
-    halfedges_old_to_new_ = inverse_of(order_.halfedges_new_to_old, execution_);
+    faces_old_to_new_ = inverse_of(order_.faces_new_to_old, execution_);
   }
 
-  void pair() {
+  [[nodiscard]] kernels::HalfedgeMap<OldMesh> halfedge_map() const {
+    return {mesh_, faces_old_to_new_.data(), first_.data()};
+  }
+
+  void gather_columns() {
+    origin_ = Buffer<Index>(static_cast<std::size_t>(mesh_.halfedge_count()));
     opposite_ = Buffer<Index>(origin_.size());
-    par::for_each_range(execution_, mesh_.halfedge_count(), kGrain, [&](IndexRange range) {
-      kernels::gather_opposites(range, mesh_, order_.halfedges_new_to_old.data(),
-                                halfedges_old_to_new_.data(), opposite_.data());
+    const auto map = halfedge_map();
+    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+      kernels::gather_origins(faces, mesh_, order_.faces_new_to_old.data(), map,
+                              order_.vertices_old_to_new.data(), origin_.data());
+    });
+    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+      kernels::gather_opposites(faces, mesh_, order_.faces_new_to_old.data(), map,
+                                opposite_.data());
     });
   }
 
@@ -165,9 +168,9 @@ class Renumbering {
   template <Topology Mesh>
   void start_fans(const Mesh& mesh) {
     find_smallest_outgoing();
-    par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
-      kernels::gather_open_starts(range, mesh_, order_.vertices_new_to_old.data(),
-                                  halfedges_old_to_new_.data(), outgoing_.data());
+    par::for_each_range(execution_, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+      kernels::scatter_open_starts(range, mesh, mesh_.fans, order_.vertices_new_to_old.data(),
+                                   outgoing_.data());
     });
     sort_fans(mesh);
   }
@@ -180,6 +183,7 @@ class Renumbering {
       kernels::Fan fan;
     };
     std::vector<VertexFan> found;
+    const auto map = halfedge_map();
     const auto add = [&](VertexId v, HalfedgeId start) {
       found.push_back({v, kernels::find_fan(mesh, start)});
     };
@@ -187,11 +191,10 @@ class Renumbering {
     for (const FanStart& old : mesh_.fans) {
       const VertexId v(order_.vertices_old_to_new[static_cast<std::size_t>(old.vertex.value)]);
       if (old.vertex != last_old) {
-        const HalfedgeId first = mesh_.outgoing[old.vertex];
-        add(v, HalfedgeId(halfedges_old_to_new_[static_cast<std::size_t>(first.value)]));
+        add(v, HalfedgeId(map(mesh_.outgoing[old.vertex])));
       }
       last_old = old.vertex;
-      add(v, HalfedgeId(halfedges_old_to_new_[static_cast<std::size_t>(old.start.value)]));
+      add(v, HalfedgeId(map(old.start)));
     }
     std::sort(found.begin(), found.end(), [](const VertexFan& a, const VertexFan& b) {
       return std::tuple(a.vertex, a.fan.smallest) < std::tuple(b.vertex, b.fan.smallest);
@@ -208,10 +211,10 @@ class Renumbering {
   }
 
   const OldMesh& mesh_;
-  Reordering& order_;
+  const Reordering& order_;
   bool is_triangles_;
   const Execution& execution_;
-  Buffer<Index> halfedges_old_to_new_;
+  Buffer<Index> faces_old_to_new_;
   Buffer<Index> origin_;
   Buffer<Index> opposite_;
   Buffer<Index> outgoing_;
@@ -220,6 +223,27 @@ class Renumbering {
   Buffer<Index> first_;
   std::vector<FanStart> fans_;
 };
+
+Connectivity renumbered(const Connectivity& mesh, const Reordering& order,
+                        const Execution& execution) {
+  return mesh.visit([&](const auto& view) {
+    return Renumbering(view, order, mesh.is_triangle_mesh(), execution).run();
+  });
+}
+
+// What each half-edge of the new mesh was.
+Buffer<Index> old_halfedges(const Connectivity& mesh, const Connectivity& new_mesh,
+                            const Buffer<Index>& faces_new_to_old, const Execution& execution) {
+  Buffer<Index> halfedges(static_cast<std::size_t>(mesh.halfedge_count()));
+  mesh.visit([&](const auto& view) {
+    const Index* first =
+        new_mesh.is_triangle_mesh() ? nullptr : new_mesh.polygons().first_of.data();
+    par::for_each_range(execution, view.face_count(), kGrain, [&](IndexRange faces) {
+      kernels::gather_halfedges(faces, view, faces_new_to_old.data(), first, halfedges.data());
+    });
+  });
+  return halfedges;
+}
 
 }  // namespace
 
@@ -234,9 +258,9 @@ Result<ReorderOutput> reorder(const Connectivity& mesh, Positions positions, Reo
   ReorderOutput output;
   output.before = locality(mesh);
   output.reordering = choose_order(mesh, positions, method, execution);
-  output.mesh = mesh.visit([&](const auto& view) {
-    return Renumbering(view, output.reordering, mesh.is_triangle_mesh(), execution).run();
-  });
+  output.mesh = renumbered(mesh, output.reordering, execution);
+  output.reordering.halfedges_new_to_old =
+      old_halfedges(mesh, output.mesh, output.reordering.faces_new_to_old, execution);
   output.after = locality(output.mesh);
   return output;
 }

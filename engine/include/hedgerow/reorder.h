@@ -72,9 +72,9 @@ struct ReorderOutput {
 /// Half-edges that a policy of the build left without opposite stay so.
 ///
 /// Pre        `mesh` is sound and canonical (I8). Positions serve the curves; others do not look.
-/// Complexity O(V + H) but for one radix sort of V keys. Every column is allocated anew, and five
-///            permutations beside them: at the peak about 4 H + 4 V + F indices for triangles,
-///            6 H + 4 V + 2 F for polygons.
+/// Complexity O(V + H) but for one radix sort of V keys. Every column is allocated anew, and the
+///            permutations beside them: at the peak about 3 H + 4 V + 2 F indices for triangles,
+///            5 H + 4 V + 3 F for polygons.
 /// Errors     null_pointer, bad_stride, count_mismatch (curves need positions), already_closed.
 ///            Throws std::bad_alloc. On any, `mesh` is as it was.
 /// Threads    Those of `execution`; the same order for all of them. The searches of `breadth_first`

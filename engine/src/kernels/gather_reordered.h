@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -31,32 +33,99 @@ inline void scatter_inverse(IndexRange range, const Index* permutation, Index* i
   for (Index i = range.begin; i < range.end; ++i) inverse[permutation[i]] = i;
 }
 
-/// What the half-edges of the new faces were, and where they start.
+/// The new numbers of half-edges: those of a face stay together and in order, so the faces tell.
+///
+/// \pre `first` holds the first half-edge of each new face (null: 3 f).
+template <Topology Mesh>
+class HalfedgeMap {
+ public:
+  HalfedgeMap(const Mesh& mesh, const Index* faces_old_to_new, const Index* first) noexcept
+      : mesh_(mesh), faces_old_to_new_(faces_old_to_new), first_(first) {}
+
+  [[nodiscard]] Index first_of(Index f_new) const noexcept {
+    return first_ != nullptr ? first_[f_new] : 3 * f_new;
+  }
+  /// Asks for what operator() will read.
+  void ask(HalfedgeId h_old) const noexcept {
+    __builtin_prefetch(faces_old_to_new_ + mesh_.face(h_old).value);
+  }
+  [[nodiscard]] Index operator()(HalfedgeId h_old) const noexcept {
+    const FaceId f = mesh_.face(h_old);
+    return first_of(faces_old_to_new_[f.value]) + (h_old.value - mesh_.first(f).value);
+  }
+
+ private:
+  const Mesh& mesh_;
+  const Index* faces_old_to_new_;
+  const Index* first_;
+};
+
+/// What the half-edges of the new faces were.
 ///
 /// \pre `first` holds the first half-edge of each new face (null: 3 f).
 template <Topology Mesh>
 void gather_halfedges(IndexRange faces, const Mesh& mesh, const Index* faces_new_to_old,
-                      const Index* first, const Index* vertices_old_to_new,
-                      Index* halfedges_new_to_old, Index* origin) noexcept {
+                      const Index* first, Index* halfedges_new_to_old) noexcept {
   for (Index f = faces.begin; f < faces.end; ++f) {
     const FaceId f_old(faces_new_to_old[f]);
     const Index begin = first != nullptr ? first[f] : 3 * f;
     const Index begin_old = mesh.first(f_old).value;
     const Index degree = mesh.degree(f_old);
-    for (Index k = 0; k < degree; ++k) {
-      halfedges_new_to_old[begin + k] = begin_old + k;
-      origin[begin + k] = vertices_old_to_new[mesh.origin[HalfedgeId(begin_old + k)].value];
+    for (Index k = 0; k < degree; ++k) halfedges_new_to_old[begin + k] = begin_old + k;
+  }
+}
+
+/// How many faces ahead a gather asks for what it will read: two loads that depend on each other,
+/// one at this distance and one at twice it.
+inline constexpr Index kFacesAhead = 16;
+
+/// Calls `visit(h, h_old)` for the half-edges of the new faces, and some faces before that `ask(g)`
+/// for what belongs to the old half-edge g. Both read `values`, a column of old half-edges.
+template <Topology Mesh, class Value, class Ask, class Visit>
+void for_each_moved_halfedge(IndexRange faces, const Mesh& mesh, const Index* faces_new_to_old,
+                             const HalfedgeMap<Mesh>& map, const Column<HalfedgeId, Value>& values,
+                             const Ask& ask, const Visit& visit) noexcept {
+  for (Index f = faces.begin; f < faces.end; ++f) {
+    if (faces.end - f > 2 * kFacesAhead) {
+      const FaceId far(faces_new_to_old[f + 2 * kFacesAhead]);
+      __builtin_prefetch(values.data() + mesh.first(far).value);
+      const FaceId near(faces_new_to_old[f + kFacesAhead]);
+      const Index begin = mesh.first(near).value;
+      for (Index k = 0; k < 3; ++k) ask(HalfedgeId(begin + k));
     }
+    const FaceId f_old(faces_new_to_old[f]);
+    const Index begin = map.first_of(f);
+    const Index begin_old = mesh.first(f_old).value;
+    const Index degree = mesh.degree(f_old);
+    for (Index k = 0; k < degree; ++k) visit(begin + k, HalfedgeId(begin_old + k));
   }
 }
 
 template <Topology Mesh>
-void gather_opposites(IndexRange halfedges, const Mesh& mesh, const Index* halfedges_new_to_old,
-                      const Index* halfedges_old_to_new, Index* opposite) noexcept {
-  for (Index h = halfedges.begin; h < halfedges.end; ++h) {
-    const HalfedgeId old = mesh.opposite[HalfedgeId(halfedges_new_to_old[h])];
-    opposite[h] = old.valid() ? halfedges_old_to_new[old.value] : kInvalidIndex;
-  }
+void gather_origins(IndexRange faces, const Mesh& mesh, const Index* faces_new_to_old,
+                    const HalfedgeMap<Mesh>& map, const Index* vertices_old_to_new,
+                    Index* origin) noexcept {
+  const auto ask = [&](HalfedgeId h) {
+    __builtin_prefetch(vertices_old_to_new + mesh.origin[h].value);
+  };
+  const auto visit = [&](Index h, HalfedgeId h_old) {
+    origin[h] = vertices_old_to_new[mesh.origin[h_old].value];
+  };
+  for_each_moved_halfedge(faces, mesh, faces_new_to_old, map, mesh.origin, ask, visit);
+}
+
+template <Topology Mesh>
+void gather_opposites(IndexRange faces, const Mesh& mesh, const Index* faces_new_to_old,
+                      const HalfedgeMap<Mesh>& map, Index* opposite) noexcept {
+  const auto ask = [&](HalfedgeId h) {
+    const HalfedgeId other = mesh.opposite[h];
+    if (other.valid()) map.ask(other);
+  };
+  const auto visit = [&](Index h, HalfedgeId h_old) {
+    const HalfedgeId other = mesh.opposite[h_old];
+    opposite[h] = other.valid() ? map(other) : kInvalidIndex;
+  };
+  for_each_moved_halfedge(faces, mesh, faces_new_to_old, map, mesh.opposite, ask, visit);
 }
 
 /// One fan as the builder would start it: at its end if it is open, else at its smallest half-edge.
@@ -95,13 +164,21 @@ inline void gather_missing_outgoing(IndexRange range, const Index* other,
   }
 }
 
-/// outgoing[v] = where the open fan starts that the old vertex started with; closed ones are left.
-template <Topology OldMesh>
-void gather_open_starts(IndexRange range, const OldMesh& old_mesh, const Index* vertices_new_to_old,
-                        const Index* halfedges_old_to_new, Index* outgoing) noexcept {
-  for (Index v = range.begin; v < range.end; ++v) {
-    const HalfedgeId old = old_mesh.outgoing[VertexId(vertices_new_to_old[v])];
-    if (old.valid() && is_open_start(old_mesh, old)) outgoing[v] = halfedges_old_to_new[old.value];
+/// outgoing[v] = where the open fan of v starts, for each half-edge of `range` that such a fan ends
+/// with; vertices with several fans are left as they are. A single fan has one end, so no two
+/// ranges write the same.
+///
+/// \pre `old_fans` are the extra fans under old numbers.
+template <Topology Mesh>
+void scatter_open_starts(IndexRange range, const Mesh& mesh, FanTable old_fans,
+                         const Index* vertices_new_to_old, Index* outgoing) noexcept {
+  for (Index h = range.begin; h < range.end; ++h) {
+    if (mesh.opposite[HalfedgeId(h)].valid()) continue;
+    const HalfedgeId start = mesh.next(HalfedgeId(h));
+    const VertexId v = mesh.origin[start];
+    if (extra_fans(old_fans, VertexId(vertices_new_to_old[v.value])).empty()) {
+      outgoing[v.value] = start.value;
+    }
   }
 }
 
