@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -15,7 +13,7 @@ namespace hedgerow::kernels {
 /// items[f] = the smallest new number among the vertices of old face f.
 template <Topology Mesh>
 void gather_smallest_vertex(IndexRange faces, const Mesh& mesh, const Index* vertices_old_to_new,
-                            KeyedItem* items) noexcept {
+                            IndexedItem* items) noexcept {
   for (Index f = faces.begin; f < faces.end; ++f) {
     const Index first = mesh.first(FaceId(f)).value;
     const Index degree = mesh.degree(FaceId(f));
@@ -24,7 +22,7 @@ void gather_smallest_vertex(IndexRange faces, const Mesh& mesh, const Index* ver
       const Index v = vertices_old_to_new[mesh.origin[HalfedgeId(first + k)].value];
       smallest = v < smallest ? v : smallest;
     }
-    items[f] = {static_cast<std::uint64_t>(smallest), f};
+    items[f] = {static_cast<decltype(IndexedItem::key)>(smallest), f};
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "hedgerow/index.h"
 
@@ -13,20 +14,34 @@ namespace hedgerow::kernels {
 inline constexpr unsigned kDigitBits = 11;
 inline constexpr Index kDigitCount = Index{1} << kDigitBits;
 
-struct KeyedItem {
-  std::uint64_t key;
+template <class Key>
+struct Keyed {
+  Key key;
   Index item;
 };
 
-[[nodiscard]] inline Index digit_of(std::uint64_t key, unsigned shift) noexcept {
-  return static_cast<Index>(key >> shift & static_cast<std::uint64_t>(kDigitCount - 1));
+using KeyedItem = Keyed<std::uint64_t>;
+using IndexedItem = Keyed<std::make_unsigned_t<Index>>;  // half the size: the key is an index
+
+template <class Key>
+[[nodiscard]] Index digit_of(Key key, unsigned shift) noexcept {
+  return static_cast<Index>(key >> shift & static_cast<Key>(kDigitCount - 1));
 }
 
 /// Adds the items of `range` to counts[0 .. kDigitCount - 1] by their digit at `shift`.
-void count_digits(IndexRange range, const KeyedItem* items, unsigned shift, Index* counts) noexcept;
+template <class Key>
+void count_digits(IndexRange range, const Keyed<Key>* items, unsigned shift,
+                  Index* counts) noexcept {
+  for (Index i = range.begin; i < range.end; ++i) ++counts[digit_of(items[i].key, shift)];
+}
 
 /// Copies the items of `range` in order to out[places[digit]], each of which then moves on by one.
-void scatter_by_digit(IndexRange range, const KeyedItem* items, unsigned shift, Index* places,
-                      KeyedItem* out) noexcept;
+template <class Key>
+void scatter_by_digit(IndexRange range, const Keyed<Key>* items, unsigned shift, Index* places,
+                      Keyed<Key>* out) noexcept {
+  for (Index i = range.begin; i < range.end; ++i) {
+    out[places[digit_of(items[i].key, shift)]++] = items[i];
+  }
+}
 
 }  // namespace hedgerow::kernels

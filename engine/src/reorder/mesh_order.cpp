@@ -165,7 +165,7 @@ Buffer<Index> faces_by_smallest_vertex(const Connectivity& mesh,
                                        const Buffer<Index>& vertices_old_to_new,
                                        const Execution& execution) {
   return mesh.visit([&](const auto& view) {
-    Buffer<kernels::KeyedItem> items(static_cast<std::size_t>(view.face_count()));
+    Buffer<kernels::IndexedItem> items(static_cast<std::size_t>(view.face_count()));
     par::for_each_range(execution, view.face_count(), kGrain, [&](IndexRange range) {
       kernels::gather_smallest_vertex(range, view, vertices_old_to_new.data(), items.data());
     });

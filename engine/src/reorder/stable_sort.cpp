@@ -11,9 +11,10 @@ namespace {
 
 constexpr Index kGrain = 1 << 16;  // items a task: as many counters as that cost little beside them
 
+template <class Key>
 class RadixSort {
  public:
-  RadixSort(Buffer<kernels::KeyedItem>&& items, const Execution& execution)
+  RadixSort(Buffer<kernels::Keyed<Key>>&& items, const Execution& execution)
       : execution_(execution),
         items_(std::move(items)),
         sorted_(items_.size()),
@@ -22,8 +23,10 @@ class RadixSort {
         places_(static_cast<std::size_t>(block_count_ * kernels::kDigitCount)) {}
 
   void run() {
-    const std::uint64_t differing = differing_bits();
-    for (unsigned shift = 0; shift < 64 && differing >> shift != 0; shift += kernels::kDigitBits) {
+    constexpr unsigned kKeyBits = 8 * sizeof(Key);
+    const Key differing = differing_bits();
+    for (unsigned shift = 0; shift < kKeyBits && differing >> shift != 0;
+         shift += kernels::kDigitBits) {
       // A digit that all keys share would move nothing.
       if (kernels::digit_of(differing, shift) != 0) sort_by_digit(shift);
     }
@@ -40,17 +43,17 @@ class RadixSort {
   }
 
  private:
-  [[nodiscard]] std::uint64_t differing_bits() const {
-    return par::reduce<std::uint64_t>(
+  [[nodiscard]] Key differing_bits() const {
+    return par::reduce<Key>(
         execution_, count_, kGrain,
         [&](IndexRange range) {
-          std::uint64_t bits = 0;
+          Key bits = 0;
           for (Index i = range.begin; i < range.end; ++i) {
             bits |= items_.data()[i].key ^ items_.data()[0].key;
           }
           return bits;
         },
-        [](std::uint64_t a, std::uint64_t b) { return a | b; });
+        [](Key a, Key b) { return a | b; });
   }
 
   // Calls kernel(range, counters of its own) for each block.
@@ -87,8 +90,8 @@ class RadixSort {
   }
 
   const Execution& execution_;
-  Buffer<kernels::KeyedItem> items_;
-  Buffer<kernels::KeyedItem> sorted_;
+  Buffer<kernels::Keyed<Key>> items_;
+  Buffer<kernels::Keyed<Key>> sorted_;
   Index count_;
   Index block_count_;
   Buffer<Index> places_;
@@ -96,10 +99,14 @@ class RadixSort {
 
 }  // namespace
 
-Buffer<Index> sorted_items(Buffer<kernels::KeyedItem>&& items, const Execution& execution) {
-  RadixSort sort(std::move(items), execution);
+template <class Key>
+Buffer<Index> sorted_items(Buffer<kernels::Keyed<Key>>&& items, const Execution& execution) {
+  RadixSort<Key> sort(std::move(items), execution);
   sort.run();
   return sort.take_items();
 }
+
+template Buffer<Index> sorted_items(Buffer<kernels::Keyed<std::uint32_t>>&&, const Execution&);
+template Buffer<Index> sorted_items(Buffer<kernels::Keyed<std::uint64_t>>&&, const Execution&);
 
 }  // namespace hedgerow::detail

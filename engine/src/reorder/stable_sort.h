@@ -13,7 +13,12 @@ namespace hedgerow::detail {
 /// same however the work is cut.
 ///
 /// Complexity O(n) for each 11 bits in which the keys differ; scratch as large as `items`.
-[[nodiscard]] Buffer<Index> sorted_items(Buffer<kernels::KeyedItem>&& items,
+template <class Key>
+[[nodiscard]] Buffer<Index> sorted_items(Buffer<kernels::Keyed<Key>>&& items,
                                          const Execution& execution);
+extern template Buffer<Index> sorted_items(Buffer<kernels::Keyed<std::uint32_t>>&&,
+                                           const Execution&);
+extern template Buffer<Index> sorted_items(Buffer<kernels::Keyed<std::uint64_t>>&&,
+                                           const Execution&);
 
 }  // namespace hedgerow::detail
