@@ -175,7 +175,7 @@ class Reorder(ProgramTest):
     def test_a_shuffled_grid_is_helped_and_stays_the_same_surface(self):
         mesh = self.file("a.obj", cli.shuffled_grid(200))
         before = self.json("inspect", mesh)
-        for order in ("hilbert", "morton", "bfs", "vertex-cache"):
+        for order in ("hilbert", "morton", "bfs", "vertex-cache", "fronts"):
             with self.subTest(order=order):
                 out = self.path(order + ".ply")
                 found = self.json("reorder", mesh, out, "--order", order)

@@ -84,7 +84,7 @@ class Usage(ProgramTest):
                  "--step: takes a number from 1e-06 to 1"),
                 (("smooth", mesh, out), "--iterations is required"),
                 (("reorder", mesh, out, "--order", "x"),
-                 '--order: takes hilbert, morton, bfs, vertex-cache, not "x"'),
+                 '--order: takes hilbert, morton, bfs, vertex-cache, fronts, not "x"'),
                 (("voronoi", mesh, out, "--box", "1,2"), "--box: At least 4 required")):
             with self.subTest(arguments=arguments):
                 self.assertIn(said, self.fails(2, *arguments))

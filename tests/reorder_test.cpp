@@ -26,7 +26,8 @@ namespace hedgerow::test {
 namespace {
 
 constexpr std::array kMethods = {ReorderMethod::hilbert, ReorderMethod::morton,
-                                 ReorderMethod::breadth_first, ReorderMethod::vertex_cache};
+                                 ReorderMethod::breadth_first, ReorderMethod::vertex_cache,
+                                 ReorderMethod::fronts};
 
 std::vector<Index> to_vector(std::span<const Index> values) {
   return {values.begin(), values.end()};
@@ -116,7 +117,7 @@ std::vector<std::vector<Index>> faces_of(const Connectivity& mesh) {
 class EveryMethod : public ::testing::TestWithParam<ReorderMethod> {};
 
 std::string method_name(const ::testing::TestParamInfo<ReorderMethod>& instance) {
-  constexpr std::array kNames = {"hilbert", "morton", "breadth_first", "vertex_cache"};
+  constexpr std::array kNames = {"hilbert", "morton", "breadth_first", "vertex_cache", "fronts"};
   return kNames[static_cast<std::size_t>(instance.param)];
 }
 INSTANTIATE_TEST_SUITE_P(Reorder, EveryMethod, ::testing::ValuesIn(kMethods), method_name);
@@ -257,7 +258,8 @@ TEST(Reorder, RefusesPositionsThatACurveCannotRead) {
        {{soup->xyz.data(), 16, 8}, ErrorCode::bad_stride},
        {{soup->xyz.data(), 16, 14}, ErrorCode::bad_stride}}};
   for (const auto& [positions, code] : cases) {
-    for (const ReorderMethod method : {ReorderMethod::hilbert, ReorderMethod::morton}) {
+    for (const ReorderMethod method :
+         {ReorderMethod::hilbert, ReorderMethod::morton, ReorderMethod::fronts}) {
       const auto output = reorder(mesh, positions, method, Execution::serial());
       ASSERT_FALSE(output);
       EXPECT_EQ(output.error().code, code);

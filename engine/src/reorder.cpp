@@ -22,8 +22,9 @@ namespace {
 constexpr Index kGrain = 1 << 14;  // elements a task
 constexpr Index kShare = 1 << 18;  // half-edges that are worth a thread's array of all vertices
 
-bool is_curve(ReorderMethod method) {
-  return method == ReorderMethod::hilbert || method == ReorderMethod::morton;
+bool needs_positions(ReorderMethod method) {
+  return method == ReorderMethod::hilbert || method == ReorderMethod::morton ||
+         method == ReorderMethod::fronts;
 }
 
 Buffer<Index> inverse_of(const Buffer<Index>& permutation, const Execution& execution) {
@@ -53,6 +54,10 @@ Reordering choose_order(const Connectivity& mesh, const Positions& positions, Re
     case ReorderMethod::vertex_cache:
       order.faces_new_to_old = detail::vertex_cache_faces(mesh);
       order.vertices_new_to_old = detail::vertices_by_first_use(mesh, order.faces_new_to_old);
+      break;
+    case ReorderMethod::fronts:
+      order.vertices_new_to_old =
+          detail::vertices_by_cells(positions, mesh.vertex_count(), execution, 0);
       break;
   }
   order.vertices_old_to_new = inverse_of(order.vertices_new_to_old, execution);
@@ -245,20 +250,47 @@ Buffer<Index> old_halfedges(const Connectivity& mesh, const Connectivity& new_me
   return halfedges;
 }
 
+// inner[outer[i]] for every i, in place of `outer`.
+void look_up(Buffer<Index>& outer, const Buffer<Index>& inner, const Execution& execution) {
+  par::for_each_range(execution, static_cast<Index>(outer.size()), kGrain, [&](IndexRange range) {
+    kernels::gather_composed(range, inner.data(), outer.data());
+  });
+}
+
+// A search hops between neighbours, so they are brought together first; then it is quick.
+Connectivity renumbered_by_fronts(const Connectivity& mesh, const Positions& positions,
+                                  Reordering& order, const Execution& execution) {
+  Reordering near = choose_order(mesh, positions, ReorderMethod::fronts, execution);
+  const Connectivity near_mesh = renumbered(mesh, near, execution);
+  detail::VertexNumbers vertices = detail::front_vertices(near_mesh);
+  order.faces_new_to_old = detail::faces_by_two_vertices(near_mesh, vertices.old_to_new, execution);
+  order.vertices_new_to_old = std::move(vertices.new_to_old);
+  order.vertices_old_to_new = std::move(vertices.old_to_new);
+  Connectivity result = renumbered(near_mesh, order, execution);
+  look_up(order.vertices_new_to_old, near.vertices_new_to_old, execution);
+  look_up(order.faces_new_to_old, near.faces_new_to_old, execution);
+  order.vertices_old_to_new = inverse_of(order.vertices_new_to_old, execution);
+  return result;
+}
+
 }  // namespace
 
 Result<ReorderOutput> reorder(const Connectivity& mesh, Positions positions, ReorderMethod method,
                               const Execution& execution) {
   if (mesh.form() != Form::open) return fail({ErrorCode::already_closed});
-  if (is_curve(method)) {
+  if (needs_positions(method)) {
     if (auto ok = detail::check_float3(positions, mesh.vertex_count()); !ok) {
       return fail(ok.error());
     }
   }
   ReorderOutput output;
   output.before = locality(mesh);
-  output.reordering = choose_order(mesh, positions, method, execution);
-  output.mesh = renumbered(mesh, output.reordering, execution);
+  if (method == ReorderMethod::fronts) {
+    output.mesh = renumbered_by_fronts(mesh, positions, output.reordering, execution);
+  } else {
+    output.reordering = choose_order(mesh, positions, method, execution);
+    output.mesh = renumbered(mesh, output.reordering, execution);
+  }
   output.reordering.halfedges_new_to_old =
       old_halfedges(mesh, output.mesh, output.reordering.faces_new_to_old, execution);
   output.after = locality(output.mesh);

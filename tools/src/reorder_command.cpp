@@ -25,6 +25,7 @@ ReorderMethod method_named(std::string_view word) {
   if (word == "morton") return ReorderMethod::morton;
   if (word == "bfs") return ReorderMethod::breadth_first;
   if (word == "vertex-cache") return ReorderMethod::vertex_cache;
+  if (word == "fronts") return ReorderMethod::fronts;
   return ReorderMethod::hilbert;
 }
 
@@ -100,7 +101,7 @@ void add_reorder(Program& program) {
       [arguments](Run& run) { return reorder_file(run, *arguments); });
   command.word("IN", arguments->input, "Mesh to read")
       .word("OUT", arguments->output, "Mesh to write; the kept faces only")
-      .choice("--order", {"hilbert", "morton", "bfs", "vertex-cache"}, arguments->order,
+      .choice("--order", {"hilbert", "morton", "bfs", "vertex-cache", "fronts"}, arguments->order,
               "The new order");
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <utility>
+
 #include "hedgerow/circulate.h"
 #include "hedgerow/index.h"
 #include "hedgerow/topology.h"
@@ -26,9 +29,72 @@ void gather_smallest_vertex(IndexRange faces, const Mesh& mesh, const Index* ver
   }
 }
 
+/// Puts faces that are sorted by their smallest vertex in order of their second one, too, and of
+/// old number where both are the same.
+///
+/// \pre `order` is sorted by smallest new vertex.
+template <Topology Mesh>
+class FaceRuns {
+ public:
+  FaceRuns(const Mesh& mesh, const Index* vertices_old_to_new, Index* order) noexcept
+      : mesh_(mesh), vertices_old_to_new_(vertices_old_to_new), order_(order) {}
+
+  /// The first place from i > 0 on whose face has another smallest vertex than the one before.
+  [[nodiscard]] Index end_of_run(Index i, Index n) const noexcept {
+    if (i >= n) return n;
+    const Index smallest = two_smallest(order_[i - 1]).first;
+    while (i < n && two_smallest(order_[i]).first == smallest) ++i;
+    return i;
+  }
+
+  /// Sorts the runs of `range`, none of which may reach beyond it.
+  void sort(IndexRange range) noexcept {
+    Index run = range.begin;
+    Index smallest = kInvalidIndex;
+    for (Index i = range.begin; i < range.end; ++i) {
+      const Index own = two_smallest(order_[i]).first;
+      if (own == smallest) continue;
+      sort_run(run, i);
+      run = i;
+      smallest = own;
+    }
+    sort_run(run, range.end);
+  }
+
+ private:
+  using Pair = std::pair<Index, Index>;
+
+  // Of a face all of whose corners are at one vertex, the second is the number of vertices.
+  [[nodiscard]] Pair two_smallest(Index f) const noexcept {
+    const Index first = mesh_.first(FaceId(f)).value;
+    const Index degree = mesh_.degree(FaceId(f));
+    Pair found{vertices_old_to_new_[mesh_.origin[HalfedgeId(first)].value], mesh_.vertex_count()};
+    for (Index k = 1; k < degree; ++k) {
+      const Index v = vertices_old_to_new_[mesh_.origin[HalfedgeId(first + k)].value];
+      found.second = std::min(found.second, std::max(found.first, v));
+      found.first = std::min(found.first, v);
+    }
+    return found;
+  }
+
+  void sort_run(Index begin, Index end) noexcept {
+    const auto key = [&](Index f) { return std::pair(two_smallest(f).second, f); };
+    std::sort(order_ + begin, order_ + end, [&](Index f, Index g) { return key(f) < key(g); });
+  }
+
+  const Mesh& mesh_;
+  const Index* vertices_old_to_new_;
+  Index* order_;
+};
+
 /// inverse[permutation[i]] = i
 inline void scatter_inverse(IndexRange range, const Index* permutation, Index* inverse) noexcept {
   for (Index i = range.begin; i < range.end; ++i) inverse[permutation[i]] = i;
+}
+
+/// outer[i] = inner[outer[i]]
+inline void gather_composed(IndexRange range, const Index* inner, Index* outer) noexcept {
+  for (Index i = range.begin; i < range.end; ++i) outer[i] = inner[outer[i]];
 }
 
 /// The new numbers of half-edges: those of a face stay together and in order, so the faces tell.

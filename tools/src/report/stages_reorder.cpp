@@ -9,11 +9,12 @@
 namespace hedgerow::tool {
 namespace {
 
-constexpr std::array<std::pair<ReorderMethod, const char*>, 4> kMethods = {
+constexpr std::array<std::pair<ReorderMethod, const char*>, 5> kMethods = {
     {{ReorderMethod::hilbert, "hilbert"},
      {ReorderMethod::morton, "morton"},
      {ReorderMethod::breadth_first, "bfs"},
-     {ReorderMethod::vertex_cache, "vertex-cache"}}};
+     {ReorderMethod::vertex_cache, "vertex-cache"},
+     {ReorderMethod::fronts, "fronts"}}};
 
 bool is_permutation_of(const Buffer<Index>& numbers, Index count) {
   std::vector<bool> is_seen(static_cast<std::size_t>(count), false);
