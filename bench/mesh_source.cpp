@@ -28,14 +28,14 @@ Soup value_or_throw(Result<Soup> soup, const std::string& shape) {
   return std::move(*soup);
 }
 
-/// Renumbered along a Hilbert curve by the engine. \pre triangles only
-Soup reordered(const Soup& soup, const std::string& shape) {
+/// Renumbered by the engine. \pre triangles only
+Soup reordered(const Soup& soup, ReorderMethod method, const std::string& shape) {
   BuildOptions options;
   options.borrow_corners = true;
   const Result<BuildOutput> built = build(soup.face_list(), options, Execution::serial());
   if (!built) throw std::runtime_error(shape + ": " + name(built.error().code));
   const Result<ReorderOutput> output =
-      reorder(built->mesh, soup.positions(), ReorderMethod::hilbert, Execution::serial());
+      reorder(built->mesh, soup.positions(), method, Execution::serial());
   if (!output) throw std::runtime_error(shape + ": " + name(output.error().code));
   Soup result;
   result.corners = Buffer<Index>::copy_of(output->mesh.origin());
@@ -84,8 +84,12 @@ Soup triangulated_points(std::int64_t count) {
 Soup generate_soup(const std::string& shape, std::int64_t triangle_count) {
   if (shape == "shuffled")
     return shapes::shuffled(generate_soup("grid", triangle_count), kShuffleSeed);
-  if (shape == "reordered") return reordered(generate_soup("shuffled", triangle_count), shape);
-  if (shape == "scan") return reordered(generate_soup("gyroid", triangle_count), shape);
+  if (shape == "reordered") {
+    return reordered(generate_soup("shuffled", triangle_count), ReorderMethod::fronts, shape);
+  }
+  if (shape == "scan") {
+    return reordered(generate_soup("gyroid", triangle_count), ReorderMethod::hilbert, shape);
+  }
   if (shape.starts_with(kMoved)) {
     return moved(generate_soup("grid", triangle_count), std::stoll(shape.substr(kMoved.size())));
   }

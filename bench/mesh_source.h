@@ -10,7 +10,7 @@ namespace hedgerow::bench {
 /// A mesh of about `triangle_count` triangles. Besides the names of hedgerow/shapes.h:
 ///   scan        a gyroid, numbered along a Hilbert curve: irregular valences, a good order
 ///   shuffled    the grid with vertices and faces renumbered at random: no order
-///   reordered   the same, renumbered along a Hilbert curve
+///   reordered   the same after `reorder` by fronts
 ///   moved-N     the grid with N of each thousand faces put at random places: some disorder
 ///   points      half as many points at random in a square, and their triangulation
 ///   fan         the closed one: its middle vertex has as many neighbours as there are triangles

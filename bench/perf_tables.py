@@ -15,7 +15,7 @@ OPERATIONS = {
     "vertex-normals": ("vertex_normals_facelist", "vertex_normals_halfedge"),
     "queries": ("one_ring", "circulator", "boundary_loops", "components", "build_radial"),
     "whole-mesh": ("close_boundary", "open_boundary", "validate", "reorder_hilbert",
-                   "reorder_morton", "reorder_breadth_first"),
+                   "reorder_morton", "reorder_breadth_first", "reorder_fronts"),
     "memory": ("fill_column",),
 }
 # In the table of sizes, and in the one of code paths.

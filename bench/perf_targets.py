@@ -145,7 +145,7 @@ TARGETS = (
            slowdown_after_reorder(SERIAL), 1.15, None, is_least=False),
     Target("the same, 2 threads", slowdown_after_reorder(PAIR), 1.15, None, is_least=False),
     Target("reordering the shuffled grid, 2 threads, in its passes for vertex normals (face list)",
-           ratio(("reorder_hilbert", SHUFFLED, PAIR), ("vertex_normals_facelist", SHUFFLED, PAIR)),
+           ratio(("reorder_fronts", SHUFFLED, PAIR), ("vertex_normals_facelist", SHUFFLED, PAIR)),
            10, 6, is_least=False),
     Target("connected components, 2 threads, of bandwidth", share("components", GRID, PAIR), 50, 80, "%"),
     Target("boundary scan, 1 thread, of bandwidth", share("boundary_loops", GRID, SERIAL), 80, 95, "%"),
@@ -200,7 +200,7 @@ def evaluate(targets, results, counts):
 
 def row_filter():
     """A pattern of the names that the targets need."""
-    operations = "|".join([*MAIN_OPERATIONS, "reorder_hilbert", "components", "boundary_loops"])
+    operations = "|".join([*MAIN_OPERATIONS, "reorder_fronts", "components", "boundary_loops"])
     small = "|".join(SMALL)
     return (f"^(({operations})/({GRID}|{SHUFFLED}|{REORDERED})/[12](/(openmesh|cgal|angle|pass))?"
             f"|({'|'.join(MAIN_OPERATIONS[:4])})/({small})/[12])$")

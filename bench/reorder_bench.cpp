@@ -12,10 +12,11 @@ namespace hedgerow::bench {
 
 namespace {
 
-constexpr std::array<std::pair<ReorderMethod, const char*>, 3> kMethods = {
+constexpr std::array<std::pair<ReorderMethod, const char*>, 4> kMethods = {
     {{ReorderMethod::hilbert, "reorder_hilbert"},
      {ReorderMethod::morton, "reorder_morton"},
-     {ReorderMethod::breadth_first, "reorder_breadth_first"}}};
+     {ReorderMethod::breadth_first, "reorder_breadth_first"},
+     {ReorderMethod::fronts, "reorder_fronts"}}};
 
 /// Reads origin, opposite, outgoing and the positions; writes the three columns and the
 /// permutations (vertices both ways, faces, half-edges).

@@ -151,7 +151,7 @@ class Targets(unittest.TestCase):
     def test_name_rows_that_their_own_filter_lets_through(self):
         import re
         pattern = re.compile(perf_targets.row_filter())
-        for row in ("build/grid/4M/1", "build/shuffled/4M/1/cgal", "reorder_hilbert/shuffled/4M/2",
+        for row in ("build/grid/4M/1", "build/shuffled/4M/1/cgal", "reorder_fronts/shuffled/4M/2",
                     "vertex_normals_facelist/grid/4M/1/angle", "one_ring/shuffled/4M/1/pass",
                     "face_normals/scan/1k/2"):
             self.assertTrue(pattern.search(row), row)
