@@ -102,7 +102,7 @@ class Window : public testing::Test {
  protected:
   // Asks for [low, high] and, if it is granted, looks at every row of it.
   bool reach(kernels::TermWindow& window, Index low, Index high) {
-    if (!window.reach(low, high, input_)) return false;
+    if (!window.reach(low, high, 8, input_)) return false;
     const int rows = kernels::rows_of(input_.weight);
     for (Index f = low; f <= high; ++f) {
       TermRow expected[3];

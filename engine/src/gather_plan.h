@@ -48,7 +48,7 @@ struct GatherPlan {
     plan.set_bytes = kernels::IndexSet::bytes(mesh.halfedge_count());
   }
   if (mesh.is_implicit()) {
-    plan.window_faces = kernels::TermWindow::capacity_for(mesh.face_count());
+    plan.window_faces = kernels::TermWindow::capacity_for(mesh.face_count(), options.weight);
     plan.window_bytes = kernels::TermWindow::bytes(plan.window_faces, options.weight);
   }
   if (!mesh.is_triangle_mesh() && options.weight != NormalWeight::max) {

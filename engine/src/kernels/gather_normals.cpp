@@ -72,9 +72,11 @@ bool sum_in_full_range(VertexId v, const View& mesh, const GatherInput& input, I
 
 template <NormalWeight W, class View>
 void gather_one(VertexId v, const View& mesh, const GatherInput& input, IndexSet& spill,
-                const NormalWriter& writer, NormalStats& stats) noexcept {
+                TermWindow& window, const NormalWriter& writer, NormalStats& stats) noexcept {
   Float3 sum{0, 0, 0};
   for_each_chunk(mesh, v, spill, [&](Index* ids, Index count) {
+    ids[count] = kNoCorner;
+    if (add_from_window<W>(ids, ids + count, input, window, sum)) return;
     sum = add_corners<W>(sum, ids, count, mesh, input);
   });
   Float3 unit;
@@ -87,10 +89,10 @@ void gather_one(VertexId v, const View& mesh, const GatherInput& input, IndexSet
 
 template <NormalWeight W, class View>
 NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input, IndexSet& spill,
-                   const NormalWriter& writer) noexcept {
+                   TermWindow& window, const NormalWriter& writer) noexcept {
   NormalStats stats;
   for (Index i = range.begin; i < range.end; ++i) {
-    gather_one<W>(VertexId(i), mesh, input, spill, writer, stats);
+    gather_one<W>(VertexId(i), mesh, input, spill, window, writer, stats);
   }
   return stats;
 }
@@ -106,9 +108,9 @@ unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexc
 }
 
 template <NormalWeight W>
-NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const GatherInput& input,
-                          IndexSet& spill, TermWindow& window,
-                          const NormalWriter& writer) noexcept {
+NormalStats gather_groups(decltype(gather_group_plain<W>) group, IndexRange range,
+                          const TriangleView& mesh, const GatherInput& input, IndexSet& spill,
+                          TermWindow& window, const NormalWriter& writer) noexcept {
   NormalStats stats;
   auto fan = std::lower_bound(
       mesh.fans.begin(), mesh.fans.end(), range.begin,
@@ -116,21 +118,22 @@ NormalStats gather_groups(IndexRange range, const TriangleView& mesh, const Gath
   Index i = range.begin;
   for (; i + kGroupSize <= range.end; i += kGroupSize) {
     const unsigned wanted = with_one_fan(i, mesh.fans, fan);
-    unsigned left =
-        gather_group_avx2<W>(i, wanted, mesh, input, window, writer) | (kWholeGroup & ~wanted);
+    unsigned left = group(i, wanted, mesh, input, window, writer) | (kWholeGroup & ~wanted);
     for (; left != 0; left &= left - 1) {
-      gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, writer, stats);
+      gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, window, writer,
+                    stats);
     }
   }
-  return merge(stats, gather<W>({i, range.end}, mesh, input, spill, writer));
+  return merge(stats, gather<W>({i, range.end}, mesh, input, spill, window, writer));
 }
 
 template <NormalWeight W, class View>
 NormalStats gather_each(const Index* ids, Index count, const View& mesh, const GatherInput& input,
                         IndexSet& spill, const NormalWriter& writer) noexcept {
   NormalStats stats;
+  TermWindow none;
   for (Index i = 0; i < count; ++i) {
-    gather_one<W>(VertexId(ids[i]), mesh, input, spill, writer, stats);
+    gather_one<W>(VertexId(ids[i]), mesh, input, spill, none, writer, stats);
   }
   return stats;
 }
@@ -150,13 +153,14 @@ NormalStats gather_listed(const Index* ids, Index count, const TriangleView& mes
                           const GatherInput& input, IndexSet& spill,
                           const NormalWriter& writer) noexcept {
   NormalStats stats;
+  TermWindow none;
   for (; count >= kGroupSize; ids += kGroupSize, count -= kGroupSize) {
     const unsigned wanted = with_one_fan(ids, mesh.fans);
     unsigned left =
         gather_listed_avx2<W>(ids, wanted, mesh, input, writer) | (kWholeGroup & ~wanted);
     for (; left != 0; left &= left - 1) {
       const VertexId v(ids[std::countr_zero(left)]);
-      gather_one<W>(v, mesh, input, spill, writer, stats);
+      gather_one<W>(v, mesh, input, spill, none, writer, stats);
     }
   }
   return merge(stats, gather_each<W>(ids, count, mesh, input, spill, writer));
@@ -192,17 +196,17 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
 NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const GatherInput& input,
                            IndexSet& spill, TermWindow& window,
                            const NormalWriter& writer) noexcept {
-  const bool is_fast = suits_avx2(input.points);
   return with_weight(input.weight, [&](auto w) {
-    return is_fast ? gather_groups<w()>(range, mesh, input, spill, window, writer)
-                   : gather<w()>(range, mesh, input, spill, writer);
+    const auto group = suits_avx2(input.points) ? gather_group_avx2<w()> : gather_group_plain<w()>;
+    return gather_groups<w()>(group, range, mesh, input, spill, window, writer);
   });
 }
 
 NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const GatherInput& input,
-                           IndexSet& spill, TermWindow&, const NormalWriter& writer) noexcept {
-  return with_weight(input.weight,
-                     [&](auto w) { return gather<w()>(range, mesh, input, spill, writer); });
+                           IndexSet& spill, TermWindow& window,
+                           const NormalWriter& writer) noexcept {
+  return with_weight(
+      input.weight, [&](auto w) { return gather<w()>(range, mesh, input, spill, window, writer); });
 }
 
 NormalStats gather_normals(const Index* ids, Index count, const TriangleView& mesh,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <type_traits>
+
 #include "hedgerow/topology.h"
 #include "kernels/normals_source.h"
 #include "kernels/one_ring.h"
@@ -41,6 +44,30 @@ void fill_face_vectors(IndexRange range, const FaceSource& faces, const Points& 
                                          const GatherInput& input, IndexSet& spill,
                                          const NormalWriter& writer) noexcept;
 
+/// Behind the last corner of a list.
+inline constexpr Index kNoCorner = std::numeric_limits<Index>::max();
+
+/// Adds to `sum` what the corners [ids, end) of one vertex add, in ascending order, if the window
+/// reaches all their faces. \pre *end == kNoCorner (A loop to there is one that gcc does not
+/// vectorise, to the loss of the few corners that there are.)
+template <NormalWeight W>
+[[nodiscard]] inline bool add_from_window(const Index* ids, const Index* end,
+                                          const GatherInput& input, TermWindow& window,
+                                          Float3& sum) noexcept {
+  using Unsigned = std::make_unsigned_t<Index>;
+  const auto face_of = [](Index h) { return static_cast<Index>(static_cast<Unsigned>(h) / 3); };
+  if (window.capacity() == 0 || ids == end) return false;
+  if (!window.reach(face_of(ids[0]), face_of(end[-1]), 1, input)) return false;
+  const Index mask = window.capacity() - 1;
+  for (; *ids != kNoCorner; ++ids) {
+    const Index face = face_of(*ids);
+    const Index corner = rows_of(W) == 1 ? 0 : *ids - 3 * face;
+    const std::ptrdiff_t row = std::ptrdiff_t{face & mask} * rows_of(W) + corner;
+    sum = sum + window.rows()[row].term;
+  }
+  return true;
+}
+
 /// The sum with what the given corners of triangles add, in their order: the plain form.
 template <NormalWeight W>
 [[nodiscard]] Float3 add_triangle_corners_scalar(Float3 sum, const Index* ids, Index count,
@@ -65,6 +92,12 @@ template <NormalWeight W>
 [[nodiscard]] unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
                                          const GatherInput& input, TermWindow& window,
                                          const NormalWriter& writer) noexcept;
+
+/// The plain form.
+template <NormalWeight W>
+[[nodiscard]] unsigned gather_group_plain(Index first, unsigned wanted, const TriangleView& mesh,
+                                          const GatherInput& input, TermWindow& window,
+                                          const NormalWriter& writer) noexcept;
 
 /// The same for kGroupSize vertices by their ids.
 template <NormalWeight W>

@@ -204,7 +204,7 @@ bool add_from_window(const Rings& rings, TermWindow& window, const GatherInput& 
   }
   if (count == 0) return false;
   const int high = ~smallest_lane(_mm256_xor_si256(largest, _mm256_set1_epi32(-1)));
-  if (!window.reach(smallest_lane(rings.row[0]) / 3, high / 3, input)) return false;
+  if (!window.reach(smallest_lane(rings.row[0]) / 3, high / 3, kLanes, input)) return false;
 
   alignas(32) int places[kMostCorners * kLanes];
   const __m256i mask = _mm256_set1_epi32(static_cast<int>(window.capacity() - 1));

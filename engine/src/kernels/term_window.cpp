@@ -16,10 +16,10 @@ constexpr std::ptrdiff_t kLineLength = kCacheLine / sizeof(Index);
 
 }  // namespace
 
-Index TermWindow::capacity_for(Index face_count) noexcept {
-  if (simd_path() == SimdPath::portable) return 0;
+Index TermWindow::capacity_for(Index face_count, NormalWeight weight) noexcept {
+  const Index most = rows_of(weight) == 1 ? 1 << 14 : 1 << 13;
   const auto faces = static_cast<std::make_unsigned_t<Index>>(std::max(face_count, kStep));
-  return std::min(kMostFaces, static_cast<Index>(std::bit_ceil(faces)));
+  return std::min(most, static_cast<Index>(std::bit_ceil(faces)));
 }
 
 std::size_t TermWindow::bytes(Index capacity, NormalWeight weight) noexcept {
@@ -38,7 +38,6 @@ TermWindow::TermWindow(std::byte* memory, Index capacity, NormalWeight weight) n
 }
 
 bool TermWindow::move(Index first, Index last, const GatherInput& input) noexcept {
-  earn();
   const Index begin = std::min(first, begin_);
   const Index end = std::max(last, end_);
   if (begin_ < end_ && end - begin <= capacity_ && pay(begin_ - begin + end - end_)) {

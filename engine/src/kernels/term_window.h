@@ -13,12 +13,9 @@ struct GatherInput;
 
 class TermWindow {
  public:
-  /// Faces a window has at the most: those of two rows of a grid of 16M triangles, with 128 KB of
-  /// terms where corners add the same.
-  static constexpr Index kMostFaces = 1 << 13;
-
-  /// Faces in a window over so many, a power of two; 0: rings do without. And the bytes of one.
-  [[nodiscard]] static Index capacity_for(Index face_count) noexcept;
+  /// Faces in a window over so many, a power of two: those of two rows of a grid of 64M triangles,
+  /// or half of that where corners differ. And the bytes of one, up to 384 KB.
+  [[nodiscard]] static Index capacity_for(Index face_count, NormalWeight weight) noexcept;
   [[nodiscard]] static std::size_t bytes(Index capacity, NormalWeight weight) noexcept;
 
   /// None.
@@ -26,16 +23,18 @@ class TermWindow {
   /// An empty one in `bytes(capacity, weight)` of memory, 64-byte aligned.
   TermWindow(std::byte* memory, Index capacity, NormalWeight weight) noexcept;
 
-  /// Makes the window hold the faces [low, high], if it can and that is worth its while: each call
-  /// earns it some faces, which it spends where it has to compute others. So a bad order costs a
-  /// bounded share more than no window. Which way is taken shows in no bit of a result.
-  [[nodiscard]] bool reach(Index low, Index high, const GatherInput& input) noexcept {
+  /// Makes the window hold the faces [low, high] round some vertices, if it can and that is worth
+  /// its while: each vertex earns it some faces, which it spends where it has to compute others. So
+  /// a bad order costs a bounded share more than no window. Which way is taken shows in no bit of a
+  /// result.
+  [[nodiscard]] bool reach(Index low, Index high, Index vertices,
+                           const GatherInput& input) noexcept {
+    const Index earned = credit_ + kEarned * vertices;
+    credit_ = earned < capacity_ ? earned : capacity_;
     const Index first = low & ~(kStep - 1);
     const Index last = (high & ~(kStep - 1)) + kStep;
-    if (first >= begin_ && last <= end_) [[likely]] {
-      earn();
+    if (first >= begin_ && last <= end_) [[likely]]
       return true;
-    }
     return move(first, last, input);
   }
 
@@ -46,10 +45,9 @@ class TermWindow {
   [[nodiscard]] Index zero_row() const noexcept { return capacity_ * row_count_; }
 
  private:
-  static constexpr Index kStep = 64;    // faces computed together at the least
-  static constexpr Index kEarned = 32;  // by eight vertices: twice the faces that they have
+  static constexpr Index kStep = 64;   // faces computed together at the least
+  static constexpr Index kEarned = 4;  // by a vertex: twice the faces that come with it
 
-  void earn() noexcept { credit_ = credit_ + kEarned < capacity_ ? credit_ + kEarned : capacity_; }
   bool move(Index first, Index last, const GatherInput& input) noexcept;
   bool pay(Index faces) noexcept;
   void fill(Index begin, Index end, const GatherInput& input) const noexcept;
