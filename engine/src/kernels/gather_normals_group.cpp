@@ -15,7 +15,8 @@ constexpr int kLanes = 16;
 constexpr int kMostCorners = 8;
 using Lanes = Index[kLanes];
 
-// corner[r][i]: a corner of vertex i; kNoCorner behind the last. Bit i of the result: vertex i has more.
+// corner[r][i]: a corner of vertex i; kNoCorner behind the last. Bit i of the result: vertex i has
+// more.
 unsigned walk(Index first, const TriangleView& mesh, Lanes (&corner)[kMostCorners]) noexcept {
   using Unsigned = std::make_unsigned_t<Index>;
   constexpr Unsigned kThird = std::numeric_limits<Unsigned>::max() / 3;
