@@ -161,7 +161,7 @@ TEST_F(Window, RefusesFacesThatLieTooFarApart) {
   EXPECT_TRUE(reach(window, 100, 200));
 }
 
-// Jumps all over the mesh: what has been earned is spent soon, then one jump in so many is paid for.
+// Jumps all over the mesh: what has been earned is spent soon, then one jump in a few is paid for.
 TEST_F(Window, PaysForJumpsInABadOrder) {
   kernels::TermWindow window = window_over(256);
   std::mt19937 random(3);

@@ -34,8 +34,8 @@ struct Triangles {
   }
 };
 
-/// Writes `rows_of(weight)` rows a triangle: to the last bit what `narrow(wide_corner(...))` says of
-/// the corner, and 1.
+/// Writes `rows_of(weight)` rows a triangle: to the last bit what `narrow(wide_corner(...))` says
+/// of the corner, and a count above 0. \pre rows are 64-byte aligned
 void fill_term_rows(const Triangles& triangles, const Points& points, NormalWeight weight,
                     TermRow* rows) noexcept;
 
@@ -63,8 +63,8 @@ struct TermSums {
 /// Adds what each corner in the block adds to its sum there, in ascending corner order.
 void add_terms(const Triangles& triangles, const TermSums& to) noexcept;
 
-/// The forms of both: the plain one; and four and eight triangles at a time. Where the build cannot,
-/// the next narrower one. \pre of the last: `suits_avx2(points)`
+/// The forms of both: the plain one; and four and eight triangles at a time. Where the build
+/// cannot, the next narrower one. \pre of the last: `suits_avx2(points)`
 void fill_term_rows_scalar(const Triangles& triangles, const Points& points, NormalWeight weight,
                            TermRow* rows) noexcept;
 void fill_term_rows_sse(const Triangles& triangles, const Points& points, NormalWeight weight,

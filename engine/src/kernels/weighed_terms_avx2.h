@@ -5,10 +5,10 @@
 
 #if defined(__AVX2__)
 
-/// The terms of weights that differ between the corners of a triangle. Each waits for a square root,
-/// two divisions and a polynomial, longer than a processor looks ahead; so they are taken in steps,
-/// each for many triangles that do not wait for one another. For sources compiled for AVX2, and
-/// local to each.
+/// The terms of weights that differ between the corners of a triangle. Each waits for a square
+/// root, two divisions and a polynomial, longer than a processor looks ahead; so they are taken in
+/// steps, each for many triangles that do not wait for one another. For sources compiled for AVX2,
+/// and local to each.
 namespace hedgerow::kernels {
 namespace {
 
