@@ -242,8 +242,9 @@ Result<NormalStats> update_vertex_normals(const Connectivity& mesh, Positions po
   }
   const kernels::NormalWriter writer{out, options.degenerate};
   const auto count = static_cast<Index>(vertices.size());
-  // No more tasks than of all vertices, of which there are at least kAllFrom times as many.
-  const Index grain = std::max<Index>(plan.grain / kAllFrom, 1);
+  // Rounded up, so that there are no more tasks than of all vertices, of which there are at least
+  // kAllFrom times as many: the scratch memory is for those.
+  const Index grain = (plan.grain - 1) / kAllFrom + 1;
   const Index task_count = (count - 1) / grain + 1;
   return mesh.visit([&](const auto& view) {
     return par::reduce_tasks<NormalStats>(

@@ -35,7 +35,7 @@ struct GatherPlan {
 [[nodiscard]] inline GatherPlan gather_plan(const Connectivity& mesh, const NormalOptions& options,
                                             const Execution& execution) noexcept {
   // Vertices a task: each computes the faces of its first row of vertices again for its window.
-  constexpr Index kSmallGrain = 1 << 12;
+  constexpr Index kSmallGrain = 1 << 14;
   constexpr Index kLargeGrain = 1 << 15;
   constexpr Index kTasks = 64;  // wanted, between the two sizes
   GatherPlan plan;
