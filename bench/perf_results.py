@@ -145,6 +145,15 @@ def write_document(document, path):
     path.write_text(f'{{"context": {context},\n"rows": [\n{lines}\n]}}\n', encoding="utf-8")
 
 
+def replace(stored, newer):
+    """The stored document with those rows in the place of their namesakes that were measured anew."""
+    rows = {entry["name"]: entry for entry in newer["rows"]
+            if not entry["name"].startswith("bandwidth/")}
+    kept = [rows.pop(entry["name"], entry) for entry in stored["rows"]]
+    again = [*stored["context"].get("again", []), newer["context"]["date"]]
+    return {"context": {**stored["context"], "again": again}, "rows": kept + list(rows.values())}
+
+
 def merge(main, portable):
     """One document: the run, and the rows of a run on the portable path as a variant."""
     rows = list(main["rows"])

@@ -4,6 +4,9 @@
   perf_table.py --measure build/release/bench/hedgerow_bench [--mesh FILE]... [--rounds 5]
       runs the benchmarks, once more on the portable path, stores bench/results/results.json and
       rewrites the tables (bench/count.py makes counts.json, bench/perf_plots.py the pictures)
+  perf_table.py --measure PROG --again PATTERN
+      measures only the groups with such names, which take the place of the stored ones; the table
+      of the machine says when (rows that are compared with each other should be one group)
   perf_table.py --representations PROG [--rounds 3]
       the same for what all representations are asked: bench/results/representations.json
   perf_table.py --planar PROG [--rounds 5]
@@ -33,7 +36,7 @@ from perf_frames import read_frames, with_part
 from perf_imr import IMR, imr_tables
 from perf_planar import PATTERN, PLANAR, planar_tables
 from perf_representations import REPRESENTATIONS, read_representations, representation_tables
-from perf_results import FOLDER, Results, merge, read_counts, read_results, write_document
+from perf_results import FOLDER, Results, merge, read_counts, read_results, replace, write_document
 from perf_results import RESULTS
 from perf_tables import SWEPT, all_tables, readme_tables, rewrite, targets_table
 from perf_targets import FOUNDATION, TARGETS, row_filter
@@ -68,6 +71,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--measure", metavar="PROGRAM")
+    parser.add_argument("--again", metavar="PATTERN", help="with --measure: only these groups")
     parser.add_argument("--targets", metavar="PROGRAM")
     parser.add_argument("--representations", metavar="PROGRAM")
     parser.add_argument("--planar", metavar="PROGRAM")
@@ -96,7 +100,11 @@ def main(arguments):
             print(targets_table(targets)(results, read_counts()), end="\n\n")
         return 0
     if options.measure:
-        write_document(measure(options.measure, measured), options.results)
+        found = measure(options.measure, measured, options.again)
+        if options.again:
+            stored = json.loads(options.results.read_text(encoding="utf-8"))
+            found = replace(stored, found)
+        write_document(found, options.results)
     if options.representations:
         answers = run(options.representations, ["--representations", *measured])
         write_document(answers, options.answers)

@@ -39,6 +39,8 @@ def machine_table(results, _counts):
              ("index bits", "index_bits"), ("peers", "peers"), ("date", "date"), ("rounds", "rounds"))
     body = [[title, str(context[key])] for title, key in names if key in context]
     body.insert(3, ["caches", caches])
+    if "again" in context:
+        body.append(["some groups measured again", ", ".join(context["again"])])
     taken = taken_by_others(results)
     if taken is not None:
         body.append(["time taken by other programs", f"{percent(max(0.0, taken))} of the serial rows'"])

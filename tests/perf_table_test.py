@@ -227,5 +227,23 @@ class Rewrite(unittest.TestCase):
             self.assertEqual(perf_table.main([*arguments, "--check"]), 1)
 
 
+class Again(unittest.TestCase):
+    def test_new_rows_take_the_place_of_their_namesakes(self):
+        stored = {"context": {"date": "then", "cpu": "one"},
+                  "rows": [bandwidth("copy", 1, copy=9.0), entry("a/grid/1M/1", 3),
+                           entry("b/grid/1M/1", 4)]}
+        newer = {"context": {"date": "now", "cpu": "one"},
+                 "rows": [bandwidth("copy", 1, copy=5.0), entry("b/grid/1M/1", 2),
+                          entry("c/grid/1M/1", 1)]}
+        document = perf_results.replace(stored, newer)
+        self.assertEqual([row["name"] for row in document["rows"]],
+                         ["bandwidth/copy/3MiB/1", "a/grid/1M/1", "b/grid/1M/1", "c/grid/1M/1"])
+        self.assertEqual(document["rows"][0]["gb_per_s"], {"copy": 9.0})
+        self.assertEqual(document["rows"][2]["times_ns"], [2e6])
+        self.assertEqual(document["context"],
+                         {"date": "then", "cpu": "one", "again": ["now"]})
+        self.assertNotIn("again", stored["context"])
+
+
 if __name__ == "__main__":
     unittest.main()
