@@ -29,8 +29,9 @@ Soup random_triangles(unsigned seed, Index count) {
   Soup soup = test::random_soup(seed, 40, count, 3);
   std::mt19937 random(seed);
   for (float& x : soup.xyz.span()) x *= kScales[random() % 8 < 5 ? 0 : random() % 4];
-  for (Index f = 0; f < count; f += 11) soup.corners[3 * f] = soup.corners[3 * f + 1];
-  if (count > 0) soup.corners[3 * (count - 1)] = 39;
+  const auto corner = [&](Index c) -> Index& { return soup.corners.data()[c]; };
+  for (Index f = 0; f < count; f += 11) corner(3 * f) = corner(3 * f + 1);
+  if (count > 0) corner(3 * (count - 1)) = 39;
   return soup;
 }
 
@@ -137,7 +138,7 @@ TEST_F(Window, HoldsWhatItReaches) {
       std::mt19937 random(static_cast<unsigned>(capacity));
       int granted = 0;
       for (int i = 0; i < 400; ++i) {
-        const auto middle = static_cast<Index>(i * (kFaces / 400) + random() % 100);
+        const Index middle = i * (kFaces / 400) + static_cast<Index>(random() % 100);
         const Index low = std::max<Index>(0, middle - static_cast<Index>(random() % 40));
         const Index high = std::min<Index>(kFaces - 1, middle + static_cast<Index>(random() % 20));
         granted += static_cast<int>(reach(window, low, std::max(low, high)));

@@ -80,10 +80,14 @@ inline constexpr double kAngleErrorBound = 3e-7;
 ///
 /// Each vertex reads its neighbours and writes itself, so any partition of the vertices is
 /// race-free. The sum runs over its corners in ascending half-edge id, in float: the same bits as
-/// `scatter_vertex_normals`. Polygons read face vectors that a first pass leaves in the workspace.
+/// `scatter_vertex_normals`. Polygons read face vectors that a first pass leaves in the workspace;
+/// triangles keep what the faces near the walk add in a window there.
 ///
 /// Pre        positions.count and out.count >= vertex count; out overlaps no input; a sound mesh.
-/// Complexity O(V + H). Bytes a vertex on a closed triangle mesh: 76.
+/// Complexity O(V + H). Bytes a vertex on a closed triangle mesh: 76. Two threads are used from
+///            16,385 vertices on.
+/// Scratch    A thread: up to 256 KB for the window (384 KB for `angle` and `max`), and a bit for
+///            each half-edge. Polygons: a vector for each face.
 /// Errors     null_pointer, bad_stride, count_mismatch, scratch_too_small.
 /// Threads    Those of `execution`; same bits for all of them, scalar or SIMD.
 [[nodiscard]] Result<NormalStats> gather_vertex_normals(const Connectivity& mesh,
