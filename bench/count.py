@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts instructions and last-level misses of the main operations: numbers without a clock.
 
-  count.py build/release/bench/hedgerow_bench [--filter REGEX] [--out bench/results/counts.json]
+  count.py build/release/bench/hedgerow_bench [--filter REGEX [--again]] [--out FILE]
 
 Runs each operation once under callgrind, from empty caches of a fixed shape (first level 32 KiB
 8-way, last level 32 MiB 16-way), on the AVX2 path and on the portable one, one thread. Two runs of
@@ -98,6 +98,15 @@ def row_of(line, part, path):
     return row
 
 
+def replace(stored, newer):
+    """The stored rows, those that were counted anew in the place of their namesakes."""
+    def key(row):
+        return tuple(row[part] for part in ("operation", "dataset", "size", "variant", "path"))
+
+    found = {key(row): row for row in newer}
+    return [found.pop(key(row), row) for row in stored] + list(found.values())
+
+
 def short(name):
     """A function without its arguments and namespaces."""
     return name.replace("(anonymous namespace)::", "").partition("(")[0].split("::")[-1]
@@ -109,6 +118,8 @@ def main(arguments):
     parser.add_argument("program")
     parser.add_argument("--filter", action="append", help="of names; one process for each of these")
     parser.add_argument("--out", type=pathlib.Path, default=COUNTS)
+    parser.add_argument("--again", action="store_true",
+                        help="keep the stored rows that are not counted anew")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--smoke", action="store_true", help="on tiny meshes")
     options = parser.parse_args(arguments)
@@ -125,6 +136,8 @@ def main(arguments):
     if not rows:
         raise SystemExit("nothing was counted")
     context = {"valgrind": version.stdout.decode().strip(), "caches": CACHES}
+    if options.again:
+        rows = replace(json.loads(options.out.read_text(encoding="utf-8"))["rows"], rows)
     write_document({"context": context, "rows": rows}, options.out)
     return 0
 
