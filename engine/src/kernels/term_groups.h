@@ -30,6 +30,10 @@ template <class Groups, class Group, class Rest>
 [[gnu::always_inline]] inline void for_each_group(const Triangles& triangles, const Groups& groups,
                                                   const Group& group, const Rest& rest) noexcept {
   constexpr Index kSize = Groups::kSize;
+  if (triangles.count < kSize) {
+    if (triangles.count > 0) rest(0, triangles);
+    return;
+  }
   const Index* corners = triangles.corners;
   const Index* last = corners + triangles.index_count - 3 * kSize;
   Index i = 0;

@@ -45,9 +45,10 @@ class WeighedTerms {
   static constexpr Index kGroups = kMost / kGroup;
 
   void find_bases(const Triangles& part, Index groups) noexcept {
+    unusual_ = 0;
+    if (groups == 0) return;
     const Index* corners = part.corners;
     const Index* last = corners + part.index_count - 3 * kGroup;
-    unusual_ = 0;
     for (Index g = 0; g < groups; ++g, corners += 3 * kGroup) {
       loader_.prefetch(corners, last - corners);
       Vec3<Float8> p[3];
