@@ -8,7 +8,7 @@
 /// range of float, add those again in full range.
 namespace hedgerow::kernels {
 
-/// The sum at one vertex, and the corners added so far (up to rounding), so 0 is "on no face"; once
+/// The sum at one vertex. Its count is above 0 once a corner was added, so 0 is "on no face"; once
 /// found out of range, negative: the largest exponent of its terms so far, minus a bias.
 using VertexSum = TermRow;
 
