@@ -56,11 +56,11 @@ FACTORS = {
     "one_ring/grid/400k/1/pass": (1.05, ""),
     "one_ring/shuffled/400k/1": (12.0, ANYWHERE),
     "boundary_loops/grid/400k/1": (1.1, ""),
-    "components/grid/400k/1": (1.5, "parents are read once more to become labels"),
+    "components/grid/400k/1": (1.25, "parents are read once more to become labels"),
     "components/shuffled/400k/1": (1.25, "parents are read once more to become labels"),
     "close_boundary/grid/400k/1": (1.45, "opposite is read three times: to find, to copy, to go round"),
     "open_boundary/grid/400k/1": (1.3, "face and next are checked before anything is made"),
-    "reorder_hilbert/grid/400k/1": (7.2, "each digit of the keys is a pass over all of them"),
+    "reorder_hilbert/grid/400k/1": (6.0, "each digit of the keys is a pass over all of them"),
     "validate/grid/400k/1": (2.5, "two passes read origin and opposite"),
 }
 PATTERNS = ["^(" + "|".join(name for name in FACTORS if f"/{order}/" in name) + ")$"
