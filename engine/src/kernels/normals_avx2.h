@@ -71,13 +71,14 @@ class TriangleLoader {
   }
 
   /// Lane i of p[k] is at corners[3 i + k].
-  void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
+  [[gnu::always_inline]] void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
     const auto corner = [corners](int i, int k) { return corners[3 * i + k]; };
     load(corner, largest_of(corners), p);
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
   /// triangle of `corners` may be named; behind the last there is nothing to read.
-  void load(const Index* corners, __m256i firsts, Vec3<Float8> (&p)[3]) const noexcept {
+  [[gnu::always_inline]] void load(const Index* corners, __m256i firsts,
+                                   Vec3<Float8> (&p)[3]) const noexcept {
     alignas(32) int first[8];
     _mm256_store_si256(reinterpret_cast<__m256i*>(first), firsts);
     // Keeps the compiler from taking the lanes out of the vector one by one, at twice the work.
@@ -113,22 +114,28 @@ class TriangleLoader {
   template <class Corner>
   [[gnu::always_inline]] void load(const Corner& corner, __m256i largest,
                                    Vec3<Float8> (&p)[3]) const noexcept {
+    // Each by its own name: an array filled in a loop stays in memory, and what is computed of it
+    // waits for the way there and back.
     if (is_any_last(largest)) [[unlikely]] {
-      for (int k = 0; k < 3; ++k) p[k] = one_by_one(corner, k);
-      return;
-    }
-    for (int k = 0; k < 3; ++k) {
-      const auto pair = [&](int i) {
-        const __m128 low = _mm_loadu_ps(at(corner(i, k)));
-        const __m128 high = _mm_loadu_ps(at(corner(i + 4, k)));
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
-      };
-      p[k] = to_lanes(pair(0), pair(1), pair(2), pair(3));
+      p[0] = one_by_one(corner, 0);
+      p[1] = one_by_one(corner, 1);
+      p[2] = one_by_one(corner, 2);
+    } else {
+      p[0] = as_rows(corner, 0);
+      p[1] = as_rows(corner, 1);
+      p[2] = as_rows(corner, 2);
     }
   }
 
   template <class Corner>
-  [[nodiscard]] Vec3<Float8> one_by_one(const Corner& corner, int k) const noexcept {
+  [[nodiscard, gnu::always_inline]] Vec3<Float8> as_rows(const Corner& corner,
+                                                         int k) const noexcept {
+    return to_lanes(load_two(corner(0, k), corner(4, k)), load_two(corner(1, k), corner(5, k)),
+                    load_two(corner(2, k), corner(6, k)), load_two(corner(3, k), corner(7, k)));
+  }
+
+  template <class Corner>
+  [[nodiscard, gnu::noinline]] Vec3<Float8> one_by_one(const Corner& corner, int k) const noexcept {
     alignas(32) float xyz[3][8];
     for (int i = 0; i < 8; ++i) {
       const float* p = at(corner(i, k));
