@@ -39,7 +39,8 @@ void describe(CLI::App& app, Options& options) {
       "Example: hedgerow_bench --benchmark_filter='^build/grid/4M'");
   app.add_option("--out", options.rounds.out,
                  "Measure in rounds, for the record, and write every time as JSON");
-  app.add_option("--rounds", options.rounds.rounds, "How often each benchmark is measured")
+  app.add_option("--rounds", options.rounds.rounds,
+                 "How often each benchmark is measured; those below 2 ms five times that")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--budget", options.rounds.budget_seconds,

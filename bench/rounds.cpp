@@ -28,6 +28,9 @@ using Clock = std::chrono::steady_clock;
 constexpr double kBatchSeconds = 2e-3;
 constexpr int kMaxBatch = 2000;
 constexpr std::size_t kMinRounds = 2;
+// A row that is measured in less than a batch is over in the time of a hiccup: more rounds of it
+// cost little.
+constexpr int kQuickFactor = 5;
 /// A virtual machine may report the last-level cache of its whole host, so there is a limit.
 constexpr std::size_t kBandwidthBytes = std::size_t{1536} << 20U;
 
@@ -81,6 +84,11 @@ struct Contender {
   double spent_seconds = 0;
   int batch = 1;
 
+  [[nodiscard]] bool is_due(int round, const RoundsOptions& options) const noexcept {
+    if (round >= options.rounds) return batch > 1;
+    return row.times_ns.size() < kMinRounds || spent_seconds <= options.budget_seconds;
+  }
+
   void measure() {
     double seconds = 0;
     double processor_seconds = 0;
@@ -107,12 +115,15 @@ class Group {
 
   void run(const RoundsOptions& options) {
     for (Contender& contender : contenders_) warm_up(contender);
-    for (int round = 0; round < options.rounds; ++round) {
+    const int most = options.is_smoke ? options.rounds : kQuickFactor * options.rounds;
+    for (int round = 0; round < most; ++round) {
+      const auto is_due = [&](const Contender& contender) {
+        return contender.row.error.empty() && contender.is_due(round, options);
+      };
+      if (std::ranges::none_of(contenders_, is_due)) break;
       for (Limit& limit : limits_) limit.measure();
       for (Contender& contender : contenders_) {
-        const bool is_spent = contender.spent_seconds > options.budget_seconds;
-        if (contender.row.times_ns.size() >= kMinRounds && is_spent) continue;
-        if (contender.row.error.empty()) contender.measure();
+        if (is_due(contender)) contender.measure();
       }
     }
   }
@@ -172,15 +183,22 @@ class Group {
     });
   }
 
-  // The checked run was the first; a fast case is timed once more to know how often to repeat it.
+  // The checked run was the first; a fast case is timed twice more to know how often to repeat it,
+  // as one time may have met a hiccup.
   static void warm_up(Contender& contender) {
     if (!contender.row.error.empty()) return;
-    if (contender.work.setup) contender.work.setup();
-    const Clock::time_point start = Clock::now();
-    contender.work.run();
-    const double seconds = seconds_since(start);
-    if (contender.work.cleanup) contender.work.cleanup();
+    double seconds = timed_run(contender.work);
+    if (seconds < 10 * kBatchSeconds) seconds = std::min(seconds, timed_run(contender.work));
     contender.batch = batch_size(seconds);
+  }
+
+  static double timed_run(const Work& work) {
+    if (work.setup) work.setup();
+    const Clock::time_point start = Clock::now();
+    work.run();
+    const double seconds = seconds_since(start);
+    if (work.cleanup) work.cleanup();
+    return seconds;
   }
 
   std::vector<Contender> contenders_;

@@ -8,7 +8,7 @@ namespace hedgerow::bench {
 struct RoundsOptions {
   std::string out;            ///< JSON file to write
   std::string filter;         ///< regular expression that a name must match somewhere; empty: all
-  int rounds = 5;             ///< times that each benchmark is measured
+  int rounds = 5;             ///< times that each benchmark is measured; five times that below 2 ms
   double budget_seconds = 2;  ///< after so long a slow benchmark is measured no more than twice
   bool is_smoke = false;      ///< tiny bandwidth arrays
 };
