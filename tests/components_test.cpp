@@ -97,9 +97,12 @@ TEST(Components, LeaveOutIsolatedVerticesBeforeAndBehind) {
   list.vertex_count += 4;
   EXPECT_TRUE(is_shown_by_numbers(list));
   expect_components(list);
-  const PlainFaces isolated{{}, 5};
-  EXPECT_TRUE(is_shown_by_numbers(isolated));
-  expect_components(isolated);
+  // Few, and more than the kernel looks ahead.
+  for (const std::int64_t count : {5, 500}) {
+    const PlainFaces isolated{{}, count};
+    EXPECT_TRUE(is_shown_by_numbers(isolated));
+    expect_components(isolated);
+  }
 }
 
 TEST(Components, AreJoinedWhereTheNumbersDoNotShowThem) {

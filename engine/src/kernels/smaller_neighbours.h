@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include "hedgerow/circulate.h"
@@ -55,7 +56,8 @@ template <Topology Mesh>
   const Index* outgoing = mesh.outgoing.data();
   for (Index i = range.begin; i < range.end; ++i) {
     if (i % kStep == 0 && i < mesh.vertex_count() - kAhead) {
-      __builtin_prefetch(mesh.origin.data() + outgoing[i + kAhead]);
+      // An isolated vertex leads nowhere, and without half-edges there is no address to offset.
+      __builtin_prefetch(mesh.origin.data() + std::max(outgoing[i + kAhead], Index{0}));
     }
     const HalfedgeId h(outgoing[i]);
     label[i] = h.valid() ? root : kInvalidIndex;
