@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "closed_columns.h"
 #include "kernels/boundary_columns.h"
 #include "kernels/materialise.h"
@@ -14,9 +15,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // vertices or half-edges a task
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr Index kBoundaryGrain = 1 << 14;  // vertices or half-edges a task
 
 // The boundary half-edges to be, each named by the half-edge that it will be opposite to.
 struct Holes {
@@ -50,12 +49,6 @@ Holes find_holes(const Mesh& mesh) {
   return holes;
 }
 
-Buffer<Index> extended(std::span<const Index> values, std::size_t size) {
-  Buffer<Index> copy(size);
-  std::copy(values.begin(), values.end(), copy.begin());
-  return copy;
-}
-
 struct FaceBuffers {
   Buffer<Index> next;
   Buffer<Index> face;
@@ -73,7 +66,7 @@ FaceBuffers face_buffers(const Connectivity& mesh, std::size_t size, const Execu
     const PolygonView view = mesh.polygons();
     std::copy_n(view.first_of.data(), view.first_of.size(), first);
   }
-  par::for_each_range(execution, mesh.face_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.face_count(), kBoundaryGrain, [&](IndexRange range) {
     if (mesh.is_explicit()) {
       kernels::fill_polygon_columns(range, first, next, face);
     } else {
@@ -113,17 +106,17 @@ detail::ClosedColumns close(const Connectivity& owner, const Mesh& mesh, const H
                             const Execution& execution) {
   const std::size_t size = at(mesh.halfedge_count()) + holes.sides.size();
   FaceBuffers faces = face_buffers(owner, size, execution);
-  Buffer<Index> origin = extended(owner.origin(), size);
-  Buffer<Index> opposite = extended(owner.opposite(), size);
+  Buffer<Index> origin = detail::extended(owner.origin(), size);
+  Buffer<Index> opposite = detail::extended(owner.opposite(), size);
   const BoundaryRun out{origin.data(), opposite.data(), faces.next.data(), faces.face.data()};
-  par::for_each_range(execution, static_cast<Index>(holes.first.size()) - 1, kGrain,
+  par::for_each_range(execution, static_cast<Index>(holes.first.size()) - 1, kBoundaryGrain,
                       [&](IndexRange loops) {
                         for (Index i = loops.begin; i < loops.end; ++i) {
                           fill_loop(mesh, holes, i, out);
                         }
                       });
   Buffer<Index> outgoing(at(mesh.vertex_count()));
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kBoundaryGrain, [&](IndexRange range) {
     kernels::gather_closed_outgoing(range, mesh, opposite.data(), outgoing.data());
   });
   auto fans = Buffer<FanStart>::copy_of(owner.fans());
@@ -196,12 +189,12 @@ void open_vertex(const PolygonView& mesh, VertexId v, Index& outgoing,
 void open_vertices(const PolygonView& mesh, const Execution& execution,
                    ConnectivityColumns& columns) {
   Buffer<Index> outgoing(at(mesh.vertex_count()));
-  const Index chunk_count = (mesh.vertex_count() + kGrain - 1) / kGrain;
+  const Index chunk_count = (mesh.vertex_count() + kBoundaryGrain - 1) / kBoundaryGrain;
   std::vector<std::vector<FanStart>> found(at(chunk_count));
   par::for_each_task(execution, chunk_count, [&](Index chunk, Index) {
     std::vector<OpenFan> scratch;
-    const Index end = std::min(mesh.vertex_count(), (chunk + 1) * kGrain);
-    for (Index v = chunk * kGrain; v < end; ++v) {
+    const Index end = std::min(mesh.vertex_count(), (chunk + 1) * kBoundaryGrain);
+    for (Index v = chunk * kBoundaryGrain; v < end; ++v) {
       open_vertex(mesh, VertexId(v), outgoing[at(v)], scratch, found[at(chunk)]);
     }
   });
@@ -217,7 +210,7 @@ struct Smallest {
 
 Index find_not_openable(const PolygonView& mesh, const Execution& execution) {
   const Smallest found = par::reduce<Smallest>(
-      execution, mesh.halfedge_count(), kGrain,
+      execution, mesh.halfedge_count(), kBoundaryGrain,
       [&](IndexRange range) { return Smallest{kernels::find_not_openable(range, mesh)}; },
       [](Smallest a, Smallest b) {
         if (a.element == kInvalidIndex) return b;
@@ -228,6 +221,12 @@ Index find_not_openable(const PolygonView& mesh, const Execution& execution) {
 }
 
 }  // namespace
+
+Buffer<Index> detail::extended(std::span<const Index> column, std::size_t size) {
+  Buffer<Index> copy(size);
+  std::copy(column.begin(), column.end(), copy.begin());
+  return copy;
+}
 
 Result<detail::ClosedColumns> detail::closed_columns(const Connectivity& mesh,
                                                      const Execution& execution) {
@@ -272,7 +271,7 @@ Result<Connectivity> open_boundary(const Connectivity& mesh, const Execution& ex
   columns.all_triangles = mesh.is_triangle_mesh();
   columns.origin = Buffer<Index>::copy_of(mesh.origin().first(size));
   Buffer<Index> opposite(size);
-  par::for_each_range(execution, side_count, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, side_count, kBoundaryGrain, [&](IndexRange range) {
     kernels::gather_open_opposites(range, view, side_count, opposite.data());
   });
   columns.opposite = std::move(opposite);

@@ -17,7 +17,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // polygons a task
+constexpr Index kPolygonGrain = 1 << 14;  // polygons a task
 
 // One build: the phases in order, each of which may change `faces_`.
 class Builder {
@@ -45,9 +45,10 @@ class Builder {
     if (!columns.all_triangles) {
       Buffer<Index> next(halfedges);
       Buffer<Index> face(halfedges);
-      par::for_each_range(execution_, faces_.first.size() - 1, kGrain, [&](IndexRange range) {
-        kernels::fill_polygon_columns(range, faces_.first.data(), next.data(), face.data());
-      });
+      par::for_each_range(
+          execution_, faces_.first.size() - 1, kPolygonGrain, [&](IndexRange range) {
+            kernels::fill_polygon_columns(range, faces_.first.data(), next.data(), face.data());
+          });
       columns.next = std::move(next);
       columns.face = std::move(face);
     }

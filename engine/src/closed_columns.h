@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "hedgerow/buffer.h"
 #include "hedgerow/connectivity.h"
 #include "hedgerow/execution.h"
@@ -21,5 +24,8 @@ struct ClosedColumns {
 /// Those of a mesh in either form, fresh. Errors: too_many_elements. Throws std::bad_alloc.
 [[nodiscard]] Result<ClosedColumns> closed_columns(const Connectivity& mesh,
                                                    const Execution& execution);
+
+/// A copy of a column with room for `size` entries; those behind its own are not set.
+[[nodiscard]] Buffer<Index> extended(std::span<const Index> column, std::size_t size);
 
 }  // namespace hedgerow::detail

@@ -6,7 +6,7 @@
 namespace hedgerow {
 
 namespace {
-constexpr Index kGrain = 1 << 16;  // faces a task: 1.5 MB written
+constexpr Index kMaterialiseGrain = 1 << 16;  // faces a task: 1.5 MB written
 }
 
 Connectivity::Connectivity(ConnectivityColumns&& columns) noexcept
@@ -39,7 +39,7 @@ void Connectivity::materialise(const Execution& execution) {
   Buffer<Index> next(halfedges);
   Buffer<Index> face(halfedges);
   Buffer<Index> first(static_cast<std::size_t>(face_count_) + 1);
-  par::for_each_range(execution, face_count_, kGrain, [&](IndexRange faces) {
+  par::for_each_range(execution, face_count_, kMaterialiseGrain, [&](IndexRange faces) {
     kernels::fill_triangle_columns(faces, next.data(), face.data(), first.data());
   });
   first[first.size() - 1] = halfedge_count();

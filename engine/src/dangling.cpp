@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "at.h"
+#include "closed_columns.h"
 #include "hedgerow/boundary.h"
 
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 bool is_dangling(const PolygonView& mesh, HalfedgeId h) noexcept {
   return !mesh.face(h).valid() && !mesh.face(mesh.opposite[h]).valid();
@@ -108,11 +108,6 @@ std::vector<EdgeVertices> name_halfedges(const PolygonView& mesh,
   return made;
 }
 
-Buffer<Index> extended(std::span<const Index> column, std::size_t size) {
-  Buffer<Index> copy(size);
-  std::copy(column.begin(), column.end(), copy.begin());
-  return copy;
-}
 template <class Key, class Value>
 std::span<const Index> span_of(const Column<Key, Value>& column) noexcept {
   return {column.data(), at(column.size())};
@@ -176,10 +171,10 @@ void link_star(const PolygonView& mesh, VertexId v, std::span<const Index> star,
 ConnectivityColumns add_edges(const PolygonView& mesh, bool all_triangles,
                               std::span<const EdgeVertices> made) {
   const std::size_t size = at(mesh.halfedge_count()) + 2 * made.size();
-  Buffer<Index> origin = extended(span_of(mesh.origin), size);
-  Buffer<Index> opposite = extended(span_of(mesh.opposite), size);
-  Buffer<Index> next = extended(span_of(mesh.next_of), size);
-  Buffer<Index> face = extended(span_of(mesh.face_of), size);
+  Buffer<Index> origin = detail::extended(span_of(mesh.origin), size);
+  Buffer<Index> opposite = detail::extended(span_of(mesh.opposite), size);
+  Buffer<Index> next = detail::extended(span_of(mesh.next_of), size);
+  Buffer<Index> face = detail::extended(span_of(mesh.face_of), size);
   Buffer<Index> outgoing = Buffer<Index>::copy_of(span_of(mesh.outgoing));
   std::vector<FanStart> fans(mesh.fans.begin(), mesh.fans.end());
   for (std::size_t i = 0; i < made.size(); ++i) {

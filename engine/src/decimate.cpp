@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "decimate/cost_buckets.h"
 #include "decimate/rounds.h"
 #include "decimate/shrinking_mesh.h"
@@ -21,18 +22,16 @@ using decimation::CostBuckets;
 using decimation::Evaluation;
 using decimation::ShrinkingMesh;
 
-constexpr Index kGrain = 1 << 12;
+constexpr Index kCostGrain = 1 << 12;
 constexpr float kNoCost = std::numeric_limits<float>::infinity();
 constexpr std::size_t kFetchHalfedges = 16;  // places ahead
 constexpr std::size_t kFetchVertices = 8;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 /// What each edge costs, by the one of its half-edges that is queued; of others no cost.
 Buffer<float> all_costs(const ShrinkingMesh& mesh, const Execution& execution) {
   const EditView& view = mesh.view();
   Buffer<float> costs(at(view.halfedge_count()));
-  par::for_each_range(execution, view.halfedge_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, view.halfedge_count(), kCostGrain, [&](IndexRange range) {
     for (Index h = range.begin; h < range.end; ++h) {
       const bool is_first = HalfedgeId(h) < view.opposite[HalfedgeId(h)];
       const float cost = is_first ? mesh.evaluate(HalfedgeId(h)).cost : kNoCost;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "at.h"
 #include "gather_plan.h"
 #include "kernels/face_normals.h"
 #include "kernels/gather_normals.h"
@@ -14,10 +15,8 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kFaceGrain = 1 << 12;
+constexpr Index kDirtyFaceGrain = 1 << 12;
 constexpr Index kAllFrom = 8;  // everything is dirty once one vertex in so many has moved
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 Buffer<std::byte> zero_bits(Index size) {
   return Buffer<std::byte>(size > 0 ? kernels::IndexSet::bytes(size) : 0, std::byte{0});
@@ -184,7 +183,7 @@ Result<NormalStats> update_face_normals(const Connectivity& mesh, Positions posi
   // together.
   for (const Index v : dirty.vertices()) __builtin_prefetch(positions[v]);
   return par::reduce<NormalStats>(
-      execution, static_cast<Index>(faces.size()), kFaceGrain,
+      execution, static_cast<Index>(faces.size()), kDirtyFaceGrain,
       [&](IndexRange range) {
         NormalStats stats;
         // Faces that follow each other are one range, several of which lanes take at a time.
@@ -230,7 +229,7 @@ Result<NormalStats> update_vertex_normals(const Connectivity& mesh, Positions po
                              nullptr};
   if (kernels::Wide* vectors = scratch.face_vectors(); vectors != nullptr) {
     const std::span<const Index> faces = dirty.ring_faces();
-    par::for_each_range(execution.with_grain(0), static_cast<Index>(faces.size()), kFaceGrain,
+    par::for_each_range(execution.with_grain(0), static_cast<Index>(faces.size()), kDirtyFaceGrain,
                         [&](IndexRange range) {
                           for (Index i = range.begin; i < range.end; ++i) {
                             const Index f = faces[at(i)];

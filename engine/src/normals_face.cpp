@@ -9,8 +9,8 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;        // faces a task
-constexpr Index kCornerGrain = 1 << 16;  // corners a task of the index check
+constexpr Index kFaceNormalGrain = 1 << 14;  // faces a task
+constexpr Index kCornerGrain = 1 << 16;      // corners a task of the index check
 
 Result<void> check_indices(const kernels::FaceSource& faces, const Execution& execution) {
   const auto limit = faces.list.vertex_count;
@@ -32,7 +32,7 @@ NormalStats run(const kernels::FaceSource& faces, Positions positions, NormalsOu
   const kernels::NormalWriter writer =
       detail::normal_writer(out, faces.face_count(), options.degenerate);
   return par::reduce<NormalStats>(
-      execution, faces.face_count(), kGrain,
+      execution, faces.face_count(), kFaceNormalGrain,
       [&](IndexRange range) {
         return kernels::face_normals(range, faces, points, options.polygon, writer);
       },

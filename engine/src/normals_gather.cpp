@@ -8,7 +8,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kFaceGrain = 1 << 13;  // faces a task
+constexpr Index kGatheredFaceGrain = 1 << 13;  // faces a task
 
 template <class View>
 NormalStats run(const View& view, const detail::GatherPlan& plan, detail::GatherScratch& scratch,
@@ -60,7 +60,7 @@ Result<NormalStats> gather_vertex_normals(const Connectivity& mesh, Positions po
                              nullptr};
   if (kernels::Wide* faces = scratch.face_vectors(); faces != nullptr) {
     const kernels::FaceSource source(face_list(mesh));
-    par::for_each_range(execution.with_grain(0), mesh.face_count(), kFaceGrain,
+    par::for_each_range(execution.with_grain(0), mesh.face_count(), kGatheredFaceGrain,
                         [&](IndexRange range) {
                           kernels::fill_face_vectors(range, source, input.points, options.weight,
                                                      options.polygon, faces);

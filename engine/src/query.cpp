@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "build/duplicate_faces.h"
 #include "float3_check.h"
 #include "kernels/find_boundary.h"
@@ -17,10 +18,9 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // vertices or faces a task
-constexpr Index kShare = 1 << 18;  // half-edges that are worth a thread's array of all vertices
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr Index kQueryGrain = 1 << 14;  // vertices or faces a task
+constexpr Index kValenceShare =
+    1 << 18;  // half-edges that are worth a thread's array of all vertices
 
 kernels::FaceColumns face_columns(const Connectivity& mesh) noexcept {
   const Index* first = mesh.is_triangle_mesh() ? nullptr : mesh.polygons().first_of.data();
@@ -118,7 +118,7 @@ Index distinct_valence(const Mesh& mesh, VertexId v) {
 // Each thread counts at the ends of its share of the half-edges.
 template <Topology Mesh>
 Buffer<Index> count_neighbours(const Mesh& mesh, const Execution& execution) {
-  const Index share_count = par::share_count(execution, mesh.halfedge_count(), kShare);
+  const Index share_count = par::share_count(execution, mesh.halfedge_count(), kValenceShare);
   std::vector<Buffer<Index>> counts;
   for (Index i = 0; i < share_count; ++i) counts.emplace_back(at(mesh.vertex_count()));
   par::for_each_task(execution, share_count, [&](Index share, Index) {
@@ -127,7 +127,7 @@ Buffer<Index> count_neighbours(const Mesh& mesh, const Execution& execution) {
     const IndexRange halfedges = par::share_of(share, share_count, mesh.halfedge_count());
     kernels::scatter_valences(halfedges, mesh, count.data());
   });
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kQueryGrain, [&](IndexRange range) {
     for (Index i = 1; i < share_count; ++i) {
       kernels::gather_valences(range, counts[at(i)].data(), counts[0].data());
     }
@@ -145,7 +145,7 @@ VertexCounts count_vertices(const Mesh& mesh, const detail::EdgeSurvey& edges,
   }
   const Buffer<Index> valences = count_neighbours(mesh, execution);
   return par::reduce<VertexCounts>(
-      execution, mesh.vertex_count(), kGrain,
+      execution, mesh.vertex_count(), kQueryGrain,
       [&](IndexRange range) {
         VertexCounts counts;
         for (Index i = range.begin; i < range.end; ++i) {
@@ -260,7 +260,7 @@ Result<std::int64_t> count_zero_area_faces(const Connectivity& mesh, Positions p
   if (auto ok = detail::check_float3(positions, mesh.vertex_count()); !ok) return fail(ok.error());
   return mesh.visit([&](const auto& view) {
     return par::reduce<std::int64_t>(
-        execution, view.face_count(), kGrain,
+        execution, view.face_count(), kQueryGrain,
         [&](IndexRange range) {
           std::int64_t count = 0;
           for (Index f = range.begin; f < range.end; ++f) {

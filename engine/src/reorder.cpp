@@ -19,8 +19,9 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // elements a task
-constexpr Index kShare = 1 << 18;  // half-edges that are worth a thread's array of all vertices
+constexpr Index kReorderGrain = 1 << 14;  // elements a task
+constexpr Index kOutgoingShare =
+    1 << 18;  // half-edges that are worth a thread's array of all vertices
 
 bool needs_positions(ReorderMethod method) {
   return method == ReorderMethod::hilbert || method == ReorderMethod::morton ||
@@ -29,7 +30,7 @@ bool needs_positions(ReorderMethod method) {
 
 Buffer<Index> inverse_of(const Buffer<Index>& permutation, const Execution& execution) {
   Buffer<Index> inverse(permutation.size());
-  par::for_each_range(execution, static_cast<Index>(permutation.size()), kGrain,
+  par::for_each_range(execution, static_cast<Index>(permutation.size()), kReorderGrain,
                       [&](IndexRange range) {
                         kernels::scatter_inverse(range, permutation.data(), inverse.data());
                       });
@@ -130,11 +131,11 @@ class Renumbering {
     origin_ = Buffer<Index>(static_cast<std::size_t>(mesh_.halfedge_count()));
     opposite_ = Buffer<Index>(origin_.size());
     const auto map = halfedge_map();
-    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+    par::for_each_range(execution_, mesh_.face_count(), kReorderGrain, [&](IndexRange faces) {
       kernels::gather_origins(faces, mesh_, order_.faces_new_to_old.data(), map,
                               order_.vertices_old_to_new.data(), origin_.data());
     });
-    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+    par::for_each_range(execution_, mesh_.face_count(), kReorderGrain, [&](IndexRange faces) {
       kernels::gather_opposites(faces, mesh_, order_.faces_new_to_old.data(), map,
                                 opposite_.data());
     });
@@ -143,7 +144,7 @@ class Renumbering {
   void fill_next_and_face() {
     next_ = Buffer<Index>(origin_.size());
     face_ = Buffer<Index>(origin_.size());
-    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+    par::for_each_range(execution_, mesh_.face_count(), kReorderGrain, [&](IndexRange faces) {
       kernels::fill_polygon_columns(faces, first_.data(), next_.data(), face_.data());
     });
   }
@@ -151,7 +152,7 @@ class Renumbering {
   // Each thread looks at its share of the half-edges, and the first share that knows a vertex has
   // its smallest one.
   void find_smallest_outgoing() {
-    const Index share_count = par::share_count(execution_, mesh_.halfedge_count(), kShare);
+    const Index share_count = par::share_count(execution_, mesh_.halfedge_count(), kOutgoingShare);
     std::vector<Buffer<Index>> smallest;
     for (Index i = 0; i < share_count; ++i) {
       smallest.emplace_back(static_cast<std::size_t>(mesh_.vertex_count()));
@@ -162,7 +163,7 @@ class Renumbering {
       const IndexRange halfedges = par::share_of(share, share_count, mesh_.halfedge_count());
       kernels::scatter_smallest_outgoing(halfedges, origin_.data(), own.data());
     });
-    par::for_each_range(execution_, mesh_.vertex_count(), kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, mesh_.vertex_count(), kReorderGrain, [&](IndexRange range) {
       for (std::size_t i = 1; i < smallest.size(); ++i) {
         kernels::gather_missing_outgoing(range, smallest[i].data(), smallest[0].data());
       }
@@ -173,7 +174,7 @@ class Renumbering {
   template <Topology Mesh>
   void start_fans(const Mesh& mesh) {
     find_smallest_outgoing();
-    par::for_each_range(execution_, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, mesh.halfedge_count(), kReorderGrain, [&](IndexRange range) {
       kernels::scatter_open_starts(range, mesh, mesh_.fans, order_.vertices_new_to_old.data(),
                                    outgoing_.data());
     });
@@ -243,7 +244,7 @@ Buffer<Index> old_halfedges(const Connectivity& mesh, const Connectivity& new_me
   mesh.visit([&](const auto& view) {
     const Index* first =
         new_mesh.is_triangle_mesh() ? nullptr : new_mesh.polygons().first_of.data();
-    par::for_each_range(execution, view.face_count(), kGrain, [&](IndexRange faces) {
+    par::for_each_range(execution, view.face_count(), kReorderGrain, [&](IndexRange faces) {
       kernels::gather_halfedges(faces, view, faces_new_to_old.data(), first, halfedges.data());
     });
   });
@@ -252,9 +253,9 @@ Buffer<Index> old_halfedges(const Connectivity& mesh, const Connectivity& new_me
 
 // inner[outer[i]] for every i, in place of `outer`.
 void look_up(Buffer<Index>& outer, const Buffer<Index>& inner, const Execution& execution) {
-  par::for_each_range(execution, static_cast<Index>(outer.size()), kGrain, [&](IndexRange range) {
-    kernels::gather_composed(range, inner.data(), outer.data());
-  });
+  par::for_each_range(
+      execution, static_cast<Index>(outer.size()), kReorderGrain,
+      [&](IndexRange range) { kernels::gather_composed(range, inner.data(), outer.data()); });
 }
 
 // A search hops between neighbours, so they are brought together first; then it is quick.

@@ -9,7 +9,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 11;
+constexpr Index kSmoothGrain = 1 << 11;
 
 using kernels::SmoothStep;
 
@@ -23,7 +23,7 @@ void smooth_double_buffered(const Mesh& mesh, const MutablePositions& own,
                             const MutablePositions& scratch, const SmoothOptions& options,
                             const Execution& execution) {
   const auto run = [&](const auto& kernel) {
-    par::for_each_range(execution, mesh.vertex_count(), kGrain, kernel);
+    par::for_each_range(execution, mesh.vertex_count(), kSmoothGrain, kernel);
   };
   for (int i = 0; i < options.iterations; ++i) {
     const MutablePositions& from = i % 2 == 0 ? own : scratch;

@@ -13,7 +13,6 @@ namespace hedgerow {
 
 namespace {
 
-using subdivision::at;
 using subdivision::Level;
 using subdivision::refine_quads;
 using subdivision::refine_quarters;

@@ -15,7 +15,7 @@ namespace {
 using kernels::MeshColumns;
 using kernels::Relation;
 
-constexpr Index kGrain = 1 << 14;  // elements a task
+constexpr Index kCheckGrain = 1 << 14;  // elements a task
 
 struct RelationText {
   std::uint8_t invariant;
@@ -97,7 +97,7 @@ class Validator {
 
   template <class Check>
   void check_all(Index count, const Check& check) {
-    const Index chunk_count = count / kGrain + (count % kGrain != 0);
+    const Index chunk_count = count / kCheckGrain + (count % kCheckGrain != 0);
     std::vector<std::vector<Violation>> parts(static_cast<std::size_t>(chunk_count));
     par::for_each_task(execution_, chunk_count, [&](Index chunk, Index) {
       auto& part = parts[static_cast<std::size_t>(chunk)];
@@ -105,8 +105,8 @@ class Validator {
                               std::int64_t got) {
         part.push_back(violation(relation, element, expected, got));
       };
-      const Index end = chunk + 1 < chunk_count ? (chunk + 1) * kGrain : count;
-      for (Index i = chunk * kGrain; i < end; ++i) check(i, report);
+      const Index end = chunk + 1 < chunk_count ? (chunk + 1) * kCheckGrain : count;
+      for (Index i = chunk * kCheckGrain; i < end; ++i) check(i, report);
     });
     for (const auto& part : parts) found_.insert(found_.end(), part.begin(), part.end());
   }

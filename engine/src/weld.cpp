@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "float3_check.h"
 #include "hedgerow/assert.h"
 #include "kernels/join_sets.h"
@@ -19,8 +20,6 @@ namespace {
 using kernels::WeldBox;
 using kernels::WeldCell;
 using kernels::WeldPoint;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // Joins the vertices at one place, and returns one point for each place.
 std::vector<WeldPoint> join_equal(Positions positions, Index* parent) {

@@ -11,7 +11,7 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kFaceGrain = 1 << 14;
+constexpr Index kSignatureGrain = 1 << 14;
 constexpr Index kVertexGrain = 1 << 14;
 
 struct Signature {
@@ -78,7 +78,7 @@ std::vector<Defect> find_duplicate_faces(const kernels::FaceColumns& faces,
                                          const Execution& execution) {
   const auto face_count = static_cast<std::size_t>(faces.face_count);
   Buffer<Signature> signatures(face_count);
-  par::for_each_range(execution, faces.face_count, kFaceGrain, [&](IndexRange range) {
+  par::for_each_range(execution, faces.face_count, kSignatureGrain, [&](IndexRange range) {
     for (Index f = range.begin; f < range.end; ++f) {
       signatures.data()[f] = signature_of(faces, f);
     }

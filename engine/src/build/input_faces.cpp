@@ -10,7 +10,7 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 16;  // corners a task: 256 KB read, 256 KB written
+constexpr Index kCornerGrain = 1 << 16;  // corners a task: 256 KB read, 256 KB written
 
 template <class Integer>
 Index corner_at(const FaceList& list, std::int64_t c) noexcept {
@@ -28,7 +28,7 @@ template <class Integer>
 Buffer<Index> copy_corners(const FaceList& list, const Execution& execution) {
   Buffer<Index> corners(static_cast<std::size_t>(list.corner_count()));
   Index* out = corners.data();
-  par::for_each_range(execution, static_cast<Index>(corners.size()), kGrain,
+  par::for_each_range(execution, static_cast<Index>(corners.size()), kCornerGrain,
                       [&, out](IndexRange range) {
                         for (Index c = range.begin; c < range.end; ++c) {
                           out[c] = corner_at<Integer>(list, c);

@@ -5,13 +5,12 @@
 #include <numeric>
 #include <utility>
 
+#include "at.h"
 #include "build/corner_source.h"
 
 namespace hedgerow::detail {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // Steps round a face or a vertex on columns that are not a `Connectivity` yet.
 struct Walker {

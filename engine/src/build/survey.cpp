@@ -12,7 +12,7 @@ namespace {
 // 8,192 slots of 128 bytes are 1 MB, half of many second-level caches; PERF.md, "Did not help".
 constexpr int kMinShift = 13;
 constexpr Index kMaxBlocks = 1 << 16;
-constexpr Index kGrain = 32;  // runs a task: 16,384 faces
+constexpr Index kSurveyGrain = 32;  // runs a task: 16,384 faces
 
 bool is_wide(const kernels::RunBlocks& run) noexcept {
   return run.count > kernels::RunBlocks::kCapacity;
@@ -44,7 +44,7 @@ Survey survey(const kernels::FaceColumns& faces, BuildScratch& scratch,
   const std::span<kernels::RunBlocks> runs = grown(scratch.runs, run_count);
   result.runs = runs;
   result.check = par::reduce<kernels::FaceCheck>(
-      execution, run_count, kGrain,
+      execution, run_count, kSurveyGrain,
       [&](IndexRange range) {
         return kernels::check_runs(range, faces, Survey::kRunLength, result.blocks.shift,
                                    runs.data());

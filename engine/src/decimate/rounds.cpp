@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "decimate/part.h"
 #include "parallel/parallel.h"
 #include "reorder/orders.h"
@@ -15,7 +16,7 @@
 namespace hedgerow::decimation {
 namespace {
 
-constexpr Index kGrain = 1 << 16;
+constexpr Index kRoundGrain = 1 << 16;
 constexpr std::int64_t kRest = 32;  // a queue does the last collapses: one of so many,
 constexpr std::int64_t kFew = 16;   // or what is left when a round does less than one of so many
 // Of the collapses that are wanted, how many a round aims at.
@@ -25,14 +26,12 @@ constexpr double kLeastYield = 0.25;
 // box that begins so much lower come elsewhere.
 constexpr float kShift = 0.31F;
 
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
 /// Where on a curve each vertex is: parts are what lies between two places.
 Buffer<Index> places_on_curve(const Positions& positions, Index vertex_count,
                               const Execution& execution, float shift) {
   const Buffer<Index> order = detail::vertices_by_cells(positions, vertex_count, execution, shift);
   Buffer<Index> places(order.size());
-  par::for_each_range(execution, vertex_count, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, vertex_count, kRoundGrain, [&](IndexRange range) {
     for (Index i = range.begin; i < range.end; ++i) places[at(order[at(i)])] = i;
   });
   return places;
@@ -43,7 +42,7 @@ class CostCounts {
  public:
   CostCounts(std::span<const float> costs, const Execution& execution)
       : costs_(costs),
-        shares_(par::share_count(execution, count(), kGrain)),
+        shares_(par::share_count(execution, count(), kRoundGrain)),
         counts_(at(shares_) * CostBuckets::kCount) {
     par::for_each_task(execution, shares_, [&](Index share, Index) {
       Index* own = counts_.data() + at(share) * CostBuckets::kCount;
@@ -125,7 +124,7 @@ struct PartLists {
 PartLists list_by_part(const Buffer<Index>& edges, const Pass& pass, Index part_count,
                        const Execution& execution) {
   const auto count = static_cast<Index>(edges.size());
-  const Index shares = par::share_count(execution, count, kGrain);
+  const Index shares = par::share_count(execution, count, kRoundGrain);
   const auto for_each_edge = [&](Index share, const auto& visit) {
     const IndexRange range = par::share_of(share, shares, count);
     for (Index i = range.begin; i < range.end; ++i) {

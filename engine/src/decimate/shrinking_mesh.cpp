@@ -13,7 +13,7 @@
 namespace hedgerow::decimation {
 namespace {
 
-constexpr Index kGrain = 1 << 12;
+constexpr Index kQuadricGrain = 1 << 12;
 constexpr double kPointWeight = 1e-3;  // of the distance to where a vertex was, beside the planes
 
 void store(Double3 p, float* to) noexcept {
@@ -39,12 +39,12 @@ ShrinkingMesh::ShrinkingMesh(EditMesh&& mesh, const Positions& positions, double
       columns_(Edit::columns(mesh_)),
       boundary_weight_(boundary_weight),
       vertices_(static_cast<std::size_t>(view_.vertex_count())) {
-  par::for_each_range(execution, view_.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, view_.vertex_count(), kQuadricGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       at(VertexId(v)).position = widen(positions[v]);
     }
   });
-  par::for_each_range(execution, view_.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, view_.vertex_count(), kQuadricGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       at(VertexId(v)).quadric = gathered(VertexId(v));
     }

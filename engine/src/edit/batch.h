@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "edit/edit.h"
 #include "parallel/parallel.h"
 
@@ -32,16 +33,16 @@ struct BatchRoom {
 template <class Kind>
 [[nodiscard]] EditBatch run_batch(EditMesh& mesh, Kind kind, std::span<const HalfedgeId> wanted,
                                   const Execution& execution) {
-  constexpr Index kGrain = 1 << 12;  // edits a task
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  constexpr Index kBatchGrain = 1 << 12;  // edits a task
   std::vector<typename Kind::Plan> plans(wanted.size());
   std::vector<char> is_possible(wanted.size());
-  par::for_each_range(execution, static_cast<Index>(wanted.size()), kGrain, [&](IndexRange range) {
-    for (Index i = range.begin; i < range.end; ++i) {
-      is_possible[at(i)] = kind.check(wanted[at(i)]) ? 1 : 0;
-      if (is_possible[at(i)] != 0) plans[at(i)] = kind.plan(wanted[at(i)]);
-    }
-  });
+  par::for_each_range(execution, static_cast<Index>(wanted.size()), kBatchGrain,
+                      [&](IndexRange range) {
+                        for (Index i = range.begin; i < range.end; ++i) {
+                          is_possible[at(i)] = kind.check(wanted[at(i)]) ? 1 : 0;
+                          if (is_possible[at(i)] != 0) plans[at(i)] = kind.plan(wanted[at(i)]);
+                        }
+                      });
   EditBatch batch;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (is_possible[i] == 0) {
@@ -63,7 +64,7 @@ template <class Kind>
   } else {
     edit.grow(room.vertices, room.halfedges, room.faces);
     const kernels::EditColumns columns = Edit::columns(mesh);
-    par::for_each_range(execution, static_cast<Index>(plans.size()), kGrain,
+    par::for_each_range(execution, static_cast<Index>(plans.size()), kBatchGrain,
                         [&](IndexRange range) { Kind::scatter(range, plans.data(), columns); });
   }
   batch.change = *edit.done();

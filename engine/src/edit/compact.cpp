@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "edit/edit.h"
 #include "kernels/prefetch.h"
 #include "represent/forms.h"
@@ -97,8 +98,6 @@ class TriangleCompaction {
   }
 
  private:
-  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
   bool number_faces() {
     maps_.faces = no_ids<FaceId>(view_.face_count());
     maps_.halfedges = no_ids<HalfedgeId>(view_.halfedge_count());

@@ -13,7 +13,7 @@ namespace {
 
 using kernels::EdgeState;
 
-constexpr Index kGrain = 1 << 13;  // edges a task
+constexpr Index kDelaunayGrain = 1 << 13;  // edges a task
 
 /// Whether a mesh records, until the end of the scope.
 class Recording {
@@ -96,7 +96,7 @@ class DelaunayFlips {
     std::vector<HalfedgeId> edges = std::exchange(waiting_, {});
     for (const HalfedgeId h : edges) is_waiting_[static_cast<std::size_t>(h.value)] = false;
     std::vector<char> fails(edges.size());
-    par::for_each_range(execution_, static_cast<Index>(edges.size()), kGrain,
+    par::for_each_range(execution_, static_cast<Index>(edges.size()), kDelaunayGrain,
                         [&](IndexRange range) {
                           for (Index i = range.begin; i < range.end; ++i) {
                             const auto k = static_cast<std::size_t>(i);
@@ -176,7 +176,7 @@ class DelaunayFlips {
   };
   void count_left() {
     const Count count = par::reduce<Count>(
-        execution_, mesh_.halfedge_count(), kGrain,
+        execution_, mesh_.halfedge_count(), kDelaunayGrain,
         [&](IndexRange range) {
           Count part;
           for (HalfedgeId h(range.begin); h.value < range.end; ++h.value) {

@@ -13,7 +13,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 16;
+constexpr Index kEditGrain = 1 << 16;
 constexpr std::array kColumns = {EditColumn::origin,  EditColumn::opposite, EditColumn::next,
                                  EditColumn::prev,    EditColumn::face,     EditColumn::outgoing,
                                  EditColumn::is_gone, EditColumn::first};
@@ -162,9 +162,11 @@ Result<EditMesh> EditMesh::of(const Connectivity& mesh, const Execution& executi
   if (!columns) return fail(columns.error());
   Buffer<Index> prev(columns->next.size());
   // `next` is a permutation.
-  par::for_each_range(execution, static_cast<Index>(prev.size()), kGrain, [&](IndexRange range) {
-    for (Index h = range.begin; h < range.end; ++h) prev[at(columns->next[at(h)])] = h;
-  });
+  par::for_each_range(execution, static_cast<Index>(prev.size()), kEditGrain,
+                      [&](IndexRange range) {
+                        for (Index h = range.begin; h < range.end; ++h)
+                          prev[at(columns->next[at(h)])] = h;
+                      });
   EditMesh made;
   made.form_ = mesh.form();
   made.is_gone_ = GrowingColumn(Buffer<Index>(columns->outgoing.size(), 0));

@@ -15,10 +15,10 @@ using Double3 = kernels::Vec3<double>;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The triangulation of least area of one loop of corners.
-class Triangulation {
+class HoleTriangulation {
  public:
-  Triangulation(const EditMesh& mesh, const Positions& positions,
-                const std::vector<VertexId>& corners)
+  HoleTriangulation(const EditMesh& mesh, const Positions& positions,
+                    const std::vector<VertexId>& corners)
       : size_(corners.size()), area_(size_ * size_, kNever), apex_(size_ * size_, 0) {
     std::vector<Double3> points;
     points.reserve(size_);
@@ -68,9 +68,9 @@ struct Part {
   HalfedgeId closing;
 };
 
-// Takes the face apart, from its closing side on. What `Triangulation` has left out is all that
+// Takes the face apart, from its closing side on. What `HoleTriangulation` has left out is all that
 // `connect` would refuse.
-void cut_face(EditMesh& mesh, const Triangulation& triangles, const Part& whole) {
+void cut_face(EditMesh& mesh, const HoleTriangulation& triangles, const Part& whole) {
   std::vector<Part> parts = {whole};
   while (!parts.empty()) {
     const Part part = parts.back();
@@ -92,7 +92,7 @@ void cut_face(EditMesh& mesh, const Triangulation& triangles, const Part& whole)
 bool fill(EditMesh& mesh, const Positions& positions, const std::vector<VertexId>& corners,
           HalfedgeId last) {
   if (!mesh.can_add_face(corners)) return false;
-  const Triangulation triangles(mesh, positions, corners);
+  const HoleTriangulation triangles(mesh, positions, corners);
   if (!triangles.exists() || !mesh.add_face(corners)) return false;
   cut_face(mesh, triangles, {0, corners.size() - 1, last});
   return true;

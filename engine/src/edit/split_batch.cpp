@@ -1,3 +1,4 @@
+#include "at.h"
 #include "edit/batch.h"
 #include "kernels/plain_edit.h"
 #include "kernels/scatter_edits.h"
@@ -56,7 +57,6 @@ class SplitKind {
   // 17 to insert a vertex; 21 for each triangle that is cut.
   static constexpr std::size_t kWrites = 60;
 
-  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   [[nodiscard]] bool has_room(const Plan& plan) const noexcept {
     return vertices_ < kMaxCount && plan.new_halfedges() <= kMaxCount - halfedges_ &&
            plan.new_faces() <= kMaxCount - faces_;

@@ -9,10 +9,9 @@ namespace hedgerow::kernels {
 
 namespace {
 
-using Unsigned = std::make_unsigned_t<Index>;
-
 // One comparison catches negative and too large.
 bool in_range(Index v, Index vertex_count) noexcept {
+  using Unsigned = std::make_unsigned_t<Index>;
   return static_cast<Unsigned>(v) < static_cast<Unsigned>(vertex_count);
 }
 

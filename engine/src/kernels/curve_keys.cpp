@@ -16,8 +16,8 @@ bool is_finite(const float* xyz) noexcept {
   return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
 }
 
-// Two zero bits in front of each of the 21 low bits of x.
-std::uint64_t spread(std::uint64_t x) noexcept {
+// Moves bit i to bit 3 i, of the 21 low bits.
+std::uint64_t spread_by_three(std::uint64_t x) noexcept {
   x = (x | x << 32U) & 0x001f00000000ffffU;
   x = (x | x << 16U) & 0x001f0000ff0000ffU;
   x = (x | x << 8U) & 0x100f00f00f00f00fU;
@@ -70,7 +70,7 @@ Cell Lattice::cell(const float* xyz) const noexcept {
 }
 
 std::uint64_t morton_key(Cell cell) noexcept {
-  return spread(cell[0]) << 2U | spread(cell[1]) << 1U | spread(cell[2]);
+  return spread_by_three(cell[0]) << 2U | spread_by_three(cell[1]) << 1U | spread_by_three(cell[2]);
 }
 
 std::uint64_t hilbert_key(Cell cell) noexcept {

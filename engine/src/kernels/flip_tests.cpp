@@ -8,17 +8,17 @@
 namespace hedgerow::kernels {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Displacement = std::array<double, 3>;
 
-Vector difference(const float* a, const float* b) noexcept {
+Displacement difference(const float* a, const float* b) noexcept {
   return {double{a[0]} - b[0], double{a[1]} - b[1], double{a[2]} - b[2]};
 }
-double dot(const Vector& a, const Vector& b) noexcept {
+double dot(const Displacement& a, const Displacement& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-double length_of_cross(const Vector& a, const Vector& b) noexcept {
-  const Vector cross = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                        a[0] * b[1] - a[1] * b[0]};
+double length_of_cross(const Displacement& a, const Displacement& b) noexcept {
+  const Displacement cross = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                              a[0] * b[1] - a[1] * b[0]};
   return std::sqrt(dot(cross, cross));
 }
 
@@ -29,13 +29,15 @@ struct Angle {
   double size;
 };
 Angle angle_at(const float* apex, const float* a, const float* b) noexcept {
-  const Vector to_a = difference(a, apex);
-  const Vector to_b = difference(b, apex);
+  const Displacement to_a = difference(a, apex);
+  const Displacement to_b = difference(b, apex);
   return {dot(to_a, to_b), length_of_cross(to_a, to_b),
           std::sqrt(dot(to_a, to_a) * dot(to_b, to_b))};
 }
 
-bool is_finite(const float* p) noexcept { return std::isfinite(p[0]) && std::isfinite(p[1]); }
+bool is_finite_in_plane(const float* p) noexcept {
+  return std::isfinite(p[0]) && std::isfinite(p[1]);
+}
 Point2 flat(const float* p) noexcept { return {p[0], p[1]}; }
 
 }  // namespace
@@ -53,7 +55,8 @@ EdgeState test_angle_sum(const float* a, const float* b, const float* c, const f
 }
 
 EdgeState test_in_circle(const float* a, const float* b, const float* c, const float* d) noexcept {
-  if (!is_finite(a) || !is_finite(b) || !is_finite(c) || !is_finite(d)) {
+  if (!is_finite_in_plane(a) || !is_finite_in_plane(b) || !is_finite_in_plane(c) ||
+      !is_finite_in_plane(d)) {
     return EdgeState::undefined;
   }
   const Point2 p = flat(a);

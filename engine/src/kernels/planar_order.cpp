@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned kMaxBits = 20;  // 2^40 cells are more than an `Index` of 32 bits numbers points
 
 // Moves bit i to bit 2 i.
-std::uint64_t spread(std::uint64_t bits) noexcept {
+std::uint64_t spread_by_two(std::uint64_t bits) noexcept {
   bits = (bits | bits << 16U) & 0x0000ffff0000ffffU;
   bits = (bits | bits << 8U) & 0x00ff00ff00ff00ffU;
   bits = (bits | bits << 4U) & 0x0f0f0f0f0f0f0f0fU;
@@ -114,7 +114,7 @@ std::uint64_t PlanarLattice::key(const Point2& point) const noexcept {
     const auto number = static_cast<std::int64_t>((point[k] - low[k]) * cells_per_unit[k]);
     return static_cast<std::uint64_t>(std::min(number, last));
   };
-  return spread(cell(0)) | spread(cell(1)) << 1U;
+  return spread_by_two(cell(0)) | spread_by_two(cell(1)) << 1U;
 }
 
 void fill_planar_keys(IndexRange range, const Point2* points, const PlanarLattice& lattice,

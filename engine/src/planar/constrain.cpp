@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "hedgerow/assert.h"
 #include "hedgerow/circulate.h"
 #include "hedgerow/edit.h"
@@ -62,7 +63,6 @@ class Constrainer {
     HalfedgeId crossed;
   };
 
-  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   [[nodiscard]] EditView view() const noexcept { return mesh_.view(); }
   [[nodiscard]] const Point2& point(VertexId v) const noexcept { return points_[at(v.value)]; }
   [[nodiscard]] int turn(VertexId a, VertexId b, VertexId c) const noexcept {

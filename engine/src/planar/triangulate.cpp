@@ -16,7 +16,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // points a task: 1.6 MB of sides
+constexpr Index kPointGrain = 1 << 14;  // points a task: 1.6 MB of sides
 
 /// The phases of one triangulation.
 class Triangulator {
@@ -38,12 +38,12 @@ class Triangulator {
   void sort_by_cells(const kernels::PlanarBox& box) {
     const kernels::PlanarLattice lattice(box, count_);
     Buffer<kernels::KeyedItem> items(static_cast<std::size_t>(count_));
-    par::for_each_range(execution_, count_, kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, count_, kPointGrain, [&](IndexRange range) {
       kernels::fill_planar_keys(range, points_, lattice, items.data());
     });
     order_ = detail::sorted_items(std::move(items), execution_);
     keys_ = Buffer<std::uint64_t>(order_.size());
-    par::for_each_range(execution_, count_, kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, count_, kPointGrain, [&](IndexRange range) {
       for (Index i = range.begin; i < range.end; ++i) {
         keys_.data()[i] = lattice.key(points_[order_.data()[i]]);
       }
@@ -55,7 +55,7 @@ class Triangulator {
   template <class Function>
   Index for_each_cell(const Function& function) {
     return par::reduce<Index>(
-        execution_, count_, kGrain,
+        execution_, count_, kPointGrain,
         [&](IndexRange range) {
           Index sum = 0;
           const std::uint64_t* keys = keys_.data();
@@ -98,7 +98,7 @@ class Triangulator {
       return Index{0};
     });
     sorted_ = Buffer<Point2>(static_cast<std::size_t>(count_));
-    par::for_each_range(execution_, count_, kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, count_, kPointGrain, [&](IndexRange range) {
       for (Index i = range.begin; i < range.end; ++i) {
         sorted_.data()[i] = points_[order_.data()[i]];
       }
@@ -123,7 +123,7 @@ class Triangulator {
       for (std::size_t i = begin; i < end; ++i) {
         const Node node = nodes[i];
         if (node.range.size() <=
-            std::max(par::grain_of(execution_, kGrain), kernels::kSmallPiece)) {
+            std::max(par::grain_of(execution_, kPointGrain), kernels::kSmallPiece)) {
           continue;
         }
         const kernels::PlanarCut cut = kernels::cut_of(node.range, node.depth, keys_.data());
@@ -200,7 +200,7 @@ Result<Triangulation> triangulate(std::span<const Point2> points, const Executio
     return fail({ErrorCode::too_many_elements, kInvalidIndex, count, kLimit});
   }
   const kernels::PlanarBox box = par::reduce<kernels::PlanarBox>(
-      execution, static_cast<Index>(count), kGrain,
+      execution, static_cast<Index>(count), kPointGrain,
       [&](IndexRange range) { return kernels::find_planar_box(range, points.data()); },
       [](const kernels::PlanarBox& a, const kernels::PlanarBox& b) { return join(a, b); });
   if (box.bad_count > 0) {

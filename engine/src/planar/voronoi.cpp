@@ -16,7 +16,7 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // triangles a task
+constexpr Index kCentreGrain = 1 << 14;  // triangles a task
 
 /// The sites, each place once, and the images of those whose cells may reach the box.
 class Mirror {
@@ -69,7 +69,7 @@ class Dual {
         execution_(execution),
         centres_(static_cast<std::size_t>(mesh_.face_count())),
         parents_(static_cast<std::size_t>(mesh_.face_count())) {
-    par::for_each_range(execution_, mesh_.face_count(), kGrain, [&](IndexRange faces) {
+    par::for_each_range(execution_, mesh_.face_count(), kCentreGrain, [&](IndexRange faces) {
       for (Index f = faces.begin; f < faces.end; ++f) {
         centres_.data()[f] = kernels::centre(corner(f, 0), corner(f, 1), corner(f, 2));
       }

@@ -13,6 +13,7 @@
 #include <functional>
 #include <span>
 
+#include "at.h"
 #include "hedgerow/assert.h"
 #include "hedgerow/query.h"
 #include "kernels/join_sets.h"
@@ -23,10 +24,8 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 17;  // faces a run: fewer take no longer than starting a thread
-constexpr Index kChunk = 1 << 14;  // vertices that are joined or labelled at a time
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr Index kFacesPerRun = 1 << 17;  // faces a run: fewer take no longer than starting a thread
+constexpr Index kChunk = 1 << 14;        // vertices that are joined or labelled at a time
 
 // Whether the vertices are one component, as far as their numbers show it; then it is labelled, and
 // `root`, the first vertex that is not isolated, is its smallest.
@@ -127,7 +126,7 @@ Result<Index> connected_components(const Connectivity& mesh, std::span<Index> la
                  mesh.vertex_count()});
   }
   if (labels.empty()) return Index{0};
-  const Index run_count = par::share_count(execution, mesh.face_count(), kGrain);
+  const Index run_count = par::share_count(execution, mesh.face_count(), kFacesPerRun);
   const std::size_t bytes = Trees::scratch_bytes(run_count, mesh.vertex_count());
   if (run_count > 1 && !workspace.reserve(bytes)) {
     return fail({ErrorCode::scratch_too_small, kInvalidIndex,

@@ -11,7 +11,7 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 16;  // half-edges a task
+constexpr Index kEdgeGrain = 1 << 16;  // half-edges a task
 
 template <Topology Mesh>
 bool is_side(const Mesh& mesh, HalfedgeId h) noexcept {
@@ -42,12 +42,12 @@ struct Side {
 
 template <Topology Mesh>
 std::vector<Side> unpaired_sides(const Mesh& mesh, const Execution& execution) {
-  const Index chunk_count = (mesh.halfedge_count() + kGrain - 1) / kGrain;
+  const Index chunk_count = (mesh.halfedge_count() + kEdgeGrain - 1) / kEdgeGrain;
   std::vector<std::vector<Side>> found(static_cast<std::size_t>(chunk_count));
   par::for_each_task(execution, chunk_count, [&](Index chunk, Index) {
     auto& sides = found[static_cast<std::size_t>(chunk)];
-    const Index end = std::min(mesh.halfedge_count(), (chunk + 1) * kGrain);
-    for (Index i = chunk * kGrain; i < end; ++i) {
+    const Index end = std::min(mesh.halfedge_count(), (chunk + 1) * kEdgeGrain);
+    for (Index i = chunk * kEdgeGrain; i < end; ++i) {
       const HalfedgeId h(i);
       if (!is_unpaired(mesh, h)) continue;
       const EdgeEnds ends = ends_of(mesh, h);

@@ -13,12 +13,12 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // vertices a task: 400 KB read and written
+constexpr Index kCurveGrain = 1 << 14;  // vertices a task: 400 KB read and written
 
 Buffer<Index> along_curve(const Positions& positions, Index vertex_count,
                           const Execution& execution, kernels::CurveKey* key_of, float shift = 0) {
   kernels::Box box = par::reduce<kernels::Box>(
-      execution, vertex_count, kGrain,
+      execution, vertex_count, kCurveGrain,
       [&](IndexRange range) { return kernels::find_box(range, positions); },
       [](const kernels::Box& a, const kernels::Box& b) { return join(a, b); });
   float longest = 0;
@@ -29,7 +29,7 @@ Buffer<Index> along_curve(const Positions& positions, Index vertex_count,
   }
   const kernels::Lattice lattice(box);
   Buffer<kernels::KeyedItem> items(static_cast<std::size_t>(vertex_count));
-  par::for_each_range(execution, vertex_count, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, vertex_count, kCurveGrain, [&](IndexRange range) {
     kernels::fill_curve_keys(range, positions, lattice, key_of, items.data());
   });
   return sorted_items(std::move(items), execution);

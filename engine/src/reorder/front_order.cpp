@@ -14,7 +14,7 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;  // faces a task
+constexpr Index kFrontGrain = 1 << 14;  // faces a task
 
 // Vertices in the order in which a search over edges reaches them; the order so far is its queue.
 template <Topology Mesh>
@@ -78,7 +78,7 @@ Buffer<Index> faces_by_two_vertices(const Connectivity& mesh,
     // Cut between runs before any of them is moved; a run over several blocks is passed once.
     const Index face_count = view.face_count();
     std::vector<Index> bounds(1, 0);
-    for (Index end = kGrain; end < face_count; end += kGrain) {
+    for (Index end = kFrontGrain; end < face_count; end += kFrontGrain) {
       bounds.push_back(runs.end_of_run(std::max(end, bounds.back()), face_count));
     }
     bounds.push_back(face_count);

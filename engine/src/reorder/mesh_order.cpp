@@ -15,8 +15,8 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 14;        // faces a task
-constexpr std::int64_t kCacheSize = 16;  // vertices; smaller than any cache that is in use
+constexpr Index kFaceOrderGrain = 1 << 14;  // faces a task
+constexpr std::int64_t kCacheSize = 16;     // vertices; smaller than any cache that is in use
 
 // Vertices in the order in which they are first added; the rest, in old order, at the end.
 class VertexOrder {
@@ -166,7 +166,7 @@ Buffer<Index> faces_by_smallest_vertex(const Connectivity& mesh,
                                        const Execution& execution) {
   return mesh.visit([&](const auto& view) {
     Buffer<kernels::IndexedItem> items(static_cast<std::size_t>(view.face_count()));
-    par::for_each_range(execution, view.face_count(), kGrain, [&](IndexRange range) {
+    par::for_each_range(execution, view.face_count(), kFaceOrderGrain, [&](IndexRange range) {
       kernels::gather_smallest_vertex(range, view, vertices_old_to_new.data(), items.data());
     });
     return sorted_items(std::move(items), execution);

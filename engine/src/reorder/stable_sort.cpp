@@ -9,7 +9,8 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kGrain = 1 << 16;  // items a task: as many counters as that cost little beside them
+constexpr Index kSortGrain =
+    1 << 16;  // items a task: as many counters as that cost little beside them
 
 template <class Key>
 class RadixSort {
@@ -19,7 +20,7 @@ class RadixSort {
         items_(std::move(items)),
         sorted_(items_.size()),
         count_(static_cast<Index>(items_.size())),
-        block_count_(count_ == 0 ? 0 : (count_ - 1) / kGrain + 1),
+        block_count_(count_ == 0 ? 0 : (count_ - 1) / kSortGrain + 1),
         places_(static_cast<std::size_t>(block_count_ * kernels::kDigitCount)) {}
 
   void run() {
@@ -34,7 +35,7 @@ class RadixSort {
 
   [[nodiscard]] Buffer<Index> take_items() const {
     Buffer<Index> out(items_.size());
-    par::for_each_range(execution_, count_, kGrain, [&](IndexRange range) {
+    par::for_each_range(execution_, count_, kSortGrain, [&](IndexRange range) {
       for (Index i = range.begin; i < range.end; ++i) {
         out.data()[i] = items_.data()[i].item;
       }
@@ -45,7 +46,7 @@ class RadixSort {
  private:
   [[nodiscard]] Key differing_bits() const {
     return par::reduce<Key>(
-        execution_, count_, kGrain,
+        execution_, count_, kSortGrain,
         [&](IndexRange range) {
           Key bits = 0;
           for (Index i = range.begin; i < range.end; ++i) {
@@ -60,8 +61,8 @@ class RadixSort {
   template <class Kernel>
   void for_each_block(const Kernel& kernel) {
     par::for_each_task(execution_, block_count_, [&](Index b, Index) {
-      const Index begin = b * kGrain;
-      kernel(IndexRange{begin, begin + std::min(kGrain, count_ - begin)},
+      const Index begin = b * kSortGrain;
+      kernel(IndexRange{begin, begin + std::min(kSortGrain, count_ - begin)},
              places_.data() + b * kernels::kDigitCount);
     });
   }

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "hedgerow/boundary.h"
 #include "hedgerow/circulate.h"
 #include "kernels/halfedge_records.h"
@@ -13,8 +14,6 @@
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // Calls visit(orbit, h) for all half-edges, orbit by orbit of the rotation, in the order of the
 // smallest half-edge of each. Returns how many orbits there are.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "at.h"
 #include "kernels/halfedge_records.h"
 #include "parallel/parallel.h"
 #include "represent/check_records.h"
@@ -12,8 +13,6 @@
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 class DcelSource {
  public:

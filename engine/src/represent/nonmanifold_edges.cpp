@@ -2,14 +2,13 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "hedgerow/nonmanifold_edge.h"
 #include "represent/number_halfedges.h"
 
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // ---- half-edges to records
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "hedgerow/buffer.h"
 #include "hedgerow/connectivity.h"
 #include "hedgerow/numbered_mesh.h"
@@ -57,7 +58,6 @@ class HalfedgeMaker {
   }
 
  private:
-  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   [[nodiscard]] Index count() const noexcept { return static_cast<Index>(record_.size()); }
 
   // Numbers the records of a cycle in a row. Returns how many there are.

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
+
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 template <Topology Mesh>
 class Walk {

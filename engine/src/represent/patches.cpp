@@ -12,12 +12,13 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 19;  // half-edges a share: fewer are not worth trees of their own
+constexpr Index kPatchGrain =
+    1 << 19;  // half-edges a share: fewer are not worth trees of their own
 
 template <Topology Mesh>
 Patches find_patches(const Mesh& mesh, const RadialCycles& cycles, const Execution& execution) {
   const IndexRange faces{0, mesh.face_count()};
-  const Index share_count = par::share_count(execution, mesh.halfedge_count(), kGrain);
+  const Index share_count = par::share_count(execution, mesh.halfedge_count(), kPatchGrain);
   std::vector<Buffer<Index>> trees;
   for (Index i = 0; i < share_count; ++i) trees.emplace_back(static_cast<std::size_t>(faces.end));
   par::for_each_task(execution, share_count, [&](Index share, Index) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "at.h"
 #include "float3_check.h"
 #include "kernels/radial_cycles.h"
 #include "parallel/parallel.h"
@@ -15,10 +16,8 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kGrain = 1 << 15;       // half-edges a block: 256 kB of two columns
-constexpr Index kLooseGrain = 1 << 12;  // loose half-edges a block: a vertex is met at random
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr Index kRadialGrain = 1 << 15;  // half-edges a block: 256 kB of two columns
+constexpr Index kLooseGrain = 1 << 12;   // loose half-edges a block: a vertex is met at random
 
 // Blocks of [0, count), each of which puts an unknown number of results to consecutive places. The
 // blocks do not depend on the execution.
@@ -85,7 +84,7 @@ class RadialBuild {
  private:
   // Fills the cycles of pairs, and returns the half-edges that are in none.
   Buffer<Index> take_pairs() {
-    Blocks blocks(mesh_.halfedge_count(), kGrain, execution_);
+    Blocks blocks(mesh_.halfedge_count(), kRadialGrain, execution_);
     Index* radial = radial_.data();
     const Index loose_count = blocks.count([&](IndexRange range) {
       if (form_ == Form::closed) return kernels::gather_closed_pairs(range, mesh_, radial);

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "at.h"
 #include "hedgerow/split_edge.h"
 #include "kernels/halfedge_records.h"
 #include "parallel/parallel.h"
@@ -11,8 +12,6 @@
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 class SplitEdgeSource {
  public:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "at.h"
 #include "hedgerow/corner_table.h"
 #include "hedgerow/directed_edge.h"
 #include "kernels/triangle_records.h"
@@ -13,8 +14,6 @@
 namespace hedgerow {
 
 namespace {
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 Result<void> check_threes(std::size_t count) {
   if (count % 3 == 0) return {};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "at.h"
 #include "represent/winged_sides.h"
 
 namespace hedgerow {
@@ -13,8 +14,6 @@ constexpr const char* kTableNames[] = {"vertices", "faces", "edges"};
 constexpr const char* kColumnNames[] = {"edge",     "start",    "end",     "prev_cw", "next_cw",
                                         "prev_ccw", "next_ccw", "face_cw", "face_ccw"};
 static_assert(std::size(kColumnNames) == static_cast<std::size_t>(WingedColumn::face_ccw) + 1);
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 bool are_ends_and_links_good(const WingedSides& sides) {
   for (Index s = 0; s < sides.count(); ++s) {

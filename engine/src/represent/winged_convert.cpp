@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "at.h"
 #include "represent/number_halfedges.h"
 #include "represent/winged_sides.h"
 
@@ -9,8 +10,6 @@ namespace hedgerow {
 namespace {
 
 using detail::WingedSides;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // ---- half-edges to tables
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "at.h"
 #include "hedgerow/subdivide.h"
 #include "kernels/refine.h"
 #include "parallel/parallel.h"
@@ -13,9 +14,7 @@
 /// What the schemes of subdivision have in common: one level, from the default form to itself.
 namespace hedgerow::subdivision {
 
-inline constexpr Index kGrain = 1 << 13;  // parent elements a task
-
-inline std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+inline constexpr Index kLevelGrain = 1 << 13;  // parent elements a task
 
 // A level of the subdivision, in the default form; what it starts from is the caller's.
 struct Level {
@@ -34,12 +33,14 @@ struct Ranks {
 template <class IsMarked>
 Ranks rank_marked(const Execution& execution, Index count, const IsMarked& is_marked) {
   Ranks ranks{Buffer<Index>(at(count)), 0};
-  const Index chunk_count = (count + kGrain - 1) / kGrain;
+  const Index chunk_count = (count + kLevelGrain - 1) / kLevelGrain;
   std::vector<Index> first(at(chunk_count));
-  const auto end_of = [&](Index chunk) { return std::min(count - chunk * kGrain, kGrain); };
+  const auto end_of = [&](Index chunk) {
+    return std::min(count - chunk * kLevelGrain, kLevelGrain);
+  };
   par::for_each_task(execution, chunk_count, [&](Index chunk, Index) {
     Index marked = 0;
-    for (Index i = 0; i < end_of(chunk); ++i) marked += is_marked(chunk * kGrain + i) ? 1 : 0;
+    for (Index i = 0; i < end_of(chunk); ++i) marked += is_marked(chunk * kLevelGrain + i) ? 1 : 0;
     first[at(chunk)] = marked;
   });
   for (Index& begin : first) {
@@ -50,8 +51,8 @@ Ranks rank_marked(const Execution& execution, Index count, const IsMarked& is_ma
   par::for_each_task(execution, chunk_count, [&](Index chunk, Index) {
     Index rank = first[at(chunk)];
     for (Index i = 0; i < end_of(chunk); ++i) {
-      ranks.before[at(chunk * kGrain + i)] = rank;
-      rank += is_marked(chunk * kGrain + i) ? 1 : 0;
+      ranks.before[at(chunk * kLevelGrain + i)] = rank;
+      rank += is_marked(chunk * kLevelGrain + i) ? 1 : 0;
     }
   });
   return ranks;
@@ -113,7 +114,7 @@ void renew_fans(const Mesh& mesh, const ChildMesh& child_mesh, const Seed& seed,
 template <Topology Mesh, class ChildMesh, class Seed>
 void start_old(const Mesh& mesh, const ChildMesh& child_mesh, const Seed& seed,
                const Execution& execution, Child& child) {
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kLevelGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       const HalfedgeId start = mesh.outgoing[VertexId(v)];
       child.outgoing[at(v)] =
@@ -129,7 +130,7 @@ void start_old(const Mesh& mesh, const ChildMesh& child_mesh, const Seed& seed,
 template <Topology Mesh, class ChildMesh, class ChildOf>
 void start_old_as_before(const Mesh& mesh, const ChildMesh& child_mesh, const ChildOf& child_of,
                          const Execution& execution, Child& child) {
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kLevelGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       const HalfedgeId start = mesh.outgoing[VertexId(v)];
       child.outgoing[at(v)] =
@@ -161,7 +162,7 @@ Buffer<float> halve_sharpness(const Mesh& mesh, const float* sharpness, std::siz
                               const Halves& halves, const Execution& execution) {
   if (sharpness == nullptr) return {};
   Buffer<float> child(size, 0.0F);
-  par::for_each_range(execution, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.halfedge_count(), kLevelGrain, [&](IndexRange range) {
     for (Index i = range.begin; i < range.end; ++i) {
       const HalfedgeId h(i);
       const HalfedgeId across = mesh.opposite[h];

@@ -12,7 +12,7 @@ Connectivity finish_quads(Child& child, Index face_count, const Execution& execu
   Buffer<Index> face(child.origin.size());
   Buffer<Index> first(at(face_count) + 1);
   first[at(face_count)] = 4 * face_count;
-  par::for_each_range(execution, face_count, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, face_count, kLevelGrain, [&](IndexRange range) {
     for (Index f = range.begin; f < range.end; ++f) {
       first[at(f)] = 4 * f;
       for (Index k = 0; k < 4; ++k) {
@@ -38,7 +38,7 @@ void place_quads(const Mesh& mesh, const Level& level, const Ranks& edges,
   const kernels::Sharpness<Mesh> sharpness{mesh, level.sharpness};
   const Index face_base = mesh.vertex_count();
   const Index edge_base = face_base + mesh.face_count();
-  par::for_each_range(execution, mesh.face_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.face_count(), kLevelGrain, [&](IndexRange range) {
     for (Index f = range.begin; f < range.end; ++f) {
       kernels::store(kernels::face_centre(mesh, old, FaceId(f)), child.point(face_base + f));
     }
@@ -51,7 +51,7 @@ void place_quads(const Mesh& mesh, const Level& level, const Ranks& edges,
            ((kernels::point_at(old, mesh.origin[h]) + kernels::point_at(old, mesh.target(h))) +
             (kernels::point_at(centres, left) + kernels::point_at(centres, right)));
   };
-  par::for_each_range(execution, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.halfedge_count(), kLevelGrain, [&](IndexRange range) {
     for (Index i = range.begin; i < range.end; ++i) {
       const HalfedgeId h(i);
       if (kernels::smaller_side(mesh, h) != h) continue;
@@ -60,7 +60,7 @@ void place_quads(const Mesh& mesh, const Level& level, const Ranks& edges,
     }
   });
   const auto smooth = [&](VertexId v) { return kernels::quad_smooth(mesh, old, centres, v); };
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kLevelGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       kernels::store(
           kernels::vertex_point(mesh, old, sharpness, VertexId(v), smooth, kernels::spline_point),
@@ -82,20 +82,20 @@ Result<SubdivisionOutput> refine_view(const Mesh& mesh, const Level& level,
   if (!vertices) return fail(vertices.error());
 
   Child child(*vertices, *halfedges);
-  par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, parents, kLevelGrain, [&](IndexRange range) {
     kernels::fill_quads(range, mesh, edges.before.data(), child.columns());
   });
   const kernels::QuadView quads{{child.origin.data(), *halfedges},
                                 {child.opposite.data(), *halfedges}};
   start_old_as_before(
       mesh, quads, [](HalfedgeId h) { return HalfedgeId(4 * h.value); }, execution, child);
-  par::for_each_range(execution, mesh.face_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.face_count(), kLevelGrain, [&](IndexRange range) {
     for (Index f = range.begin; f < range.end; ++f) {
       // One half-edge leaves the centre towards each side of the face: the first has the first.
       child.outgoing[at(mesh.vertex_count() + f)] = 4 * mesh.first(FaceId(f)).value + 2;
     }
   });
-  par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, parents, kLevelGrain, [&](IndexRange range) {
     for (Index h = range.begin; h < range.end; ++h) {
       if (kernels::smaller_side(mesh, HalfedgeId(h)).value != h) continue;
       child.outgoing[at(edge_base + edges.before[at(h)])] =

@@ -15,7 +15,7 @@ void place_quarters(const TriangleView& mesh, const Level& level, const Ranks& e
     return 0.375 * (corner(h) + corner(mesh.next(h))) +
            0.125 * (corner(mesh.prev(h)) + corner(mesh.prev(mesh.opposite[h])));
   };
-  par::for_each_range(execution, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.halfedge_count(), kLevelGrain, [&](IndexRange range) {
     for (Index i = range.begin; i < range.end; ++i) {
       const HalfedgeId h(i);
       if (kernels::smaller_side(mesh, h) != h) continue;
@@ -24,7 +24,7 @@ void place_quarters(const TriangleView& mesh, const Level& level, const Ranks& e
     }
   });
   const auto smooth = [&](VertexId v) { return kernels::loop_smooth(mesh, old, v); };
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kLevelGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       kernels::store(
           kernels::vertex_point(mesh, old, sharpness, VertexId(v), smooth, kernels::spline_point),
@@ -45,13 +45,13 @@ Result<SubdivisionOutput> refine_quarters(const TriangleView& mesh, const Level&
   if (!vertices) return fail(vertices.error());
 
   Child child(*vertices, *halfedges);
-  par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, parents, kLevelGrain, [&](IndexRange range) {
     kernels::fill_quarters(range, mesh, edges.before.data(), child.columns());
   });
   const TriangleView triangles = triangle_view(child);
   const auto seed = [](HalfedgeId h) { return HalfedgeId(kernels::corner_child(h)); };
   start_old_as_before(mesh, triangles, seed, execution, child);
-  par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, parents, kLevelGrain, [&](IndexRange range) {
     for (Index h = range.begin; h < range.end; ++h) {
       if (kernels::smaller_side(mesh, HalfedgeId(h)).value != h) continue;
       child.outgoing[at(mesh.vertex_count() + edges.before[at(h)])] =

@@ -31,14 +31,14 @@ void place_thirds(const TriangleView& mesh, const Positions& old, const kernels:
 void place_all(const kernels::Apexes& apexes, const Positions& old, bool cuts_boundary,
                const Execution& execution, Child& child) {
   const TriangleView& mesh = apexes.mesh;
-  par::for_each_range(execution, mesh.face_count(), kGrain,
+  par::for_each_range(execution, mesh.face_count(), kLevelGrain,
                       [&](IndexRange range) { place_thirds(mesh, old, apexes, range, child); });
   const auto smooth = [&](VertexId v) { return kernels::sqrt3_smooth(mesh, old, v); };
   const auto crease = [&](kernels::Point p, kernels::Point sum) {
     return cuts_boundary ? (1.0 / 27) * (19.0 * p + 4.0 * sum) : p;
   };
   const kernels::Sharpness<TriangleView> sharpness{mesh, nullptr};
-  par::for_each_range(execution, mesh.vertex_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.vertex_count(), kLevelGrain, [&](IndexRange range) {
     for (Index v = range.begin; v < range.end; ++v) {
       kernels::store(kernels::vertex_point(mesh, old, sharpness, VertexId(v), smooth, crease),
                      child.point(v));
@@ -49,7 +49,7 @@ void place_all(const kernels::Apexes& apexes, const Positions& old, bool cuts_bo
 void start_apexes(const kernels::Apexes& apexes, const TriangleView& triangles,
                   const Execution& execution, Child& child) {
   const TriangleView& mesh = apexes.mesh;
-  par::for_each_range(execution, mesh.halfedge_count(), kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, mesh.halfedge_count(), kLevelGrain, [&](IndexRange range) {
     for (Index i = range.begin; i < range.end; ++i) {
       const HalfedgeId h(i);
       const Index apex = apexes.first(mesh.face(h));
@@ -82,7 +82,7 @@ Result<SubdivisionOutput> refine_thirds(const TriangleView& mesh, const Level& l
 
   Child child(*vertices, *halfedges);
   const kernels::Apexes apexes{mesh, cuts_boundary ? cut.before.data() : nullptr};
-  par::for_each_range(execution, parents, kGrain, [&](IndexRange range) {
+  par::for_each_range(execution, parents, kLevelGrain, [&](IndexRange range) {
     kernels::fill_thirds(range, apexes, child.columns());
   });
   const TriangleView triangles = triangle_view(child);
