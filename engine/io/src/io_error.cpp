@@ -6,44 +6,44 @@ namespace hedgerow::io {
 
 namespace {
 
-constexpr const char* kNames[] = {"unknown-extension",
-                                  "cannot-open",
-                                  "not-a-regular-file",
-                                  "cannot-read",
-                                  "file-changed",
-                                  "empty-file",
-                                  "compressed-file",
-                                  "utf16-text",
-                                  "nul-byte",
-                                  "unknown-format",
-                                  "bad-header",
-                                  "unsupported-variant",
-                                  "unexpected-end",
-                                  "missing-value",
-                                  "unexpected-word",
-                                  "bad-number",
-                                  "bad-count",
-                                  "count-too-large",
-                                  "too-many-elements",
-                                  "size-mismatch",
-                                  "unknown-type",
-                                  "duplicate-property",
-                                  "missing-property",
-                                  "missing-element",
-                                  "bad-property",
-                                  "index-out-of-range",
-                                  "non-finite",
-                                  "bad-face-degree",
-                                  "inconsistent-table",
-                                  "bad-json",
-                                  "bad-gltf",
-                                  "bad-accessor",
-                                  "forbidden-uri",
-                                  "unsupported-feature",
-                                  "cannot-create",
-                                  "cannot-write",
-                                  "bad-mesh"};
-static_assert(std::size(kNames) == static_cast<std::size_t>(IoErrorCode::bad_mesh) + 1);
+constexpr const char* kErrorNames[] = {"unknown-extension",
+                                       "cannot-open",
+                                       "not-a-regular-file",
+                                       "cannot-read",
+                                       "file-changed",
+                                       "empty-file",
+                                       "compressed-file",
+                                       "utf16-text",
+                                       "nul-byte",
+                                       "unknown-format",
+                                       "bad-header",
+                                       "unsupported-variant",
+                                       "unexpected-end",
+                                       "missing-value",
+                                       "unexpected-word",
+                                       "bad-number",
+                                       "bad-count",
+                                       "count-too-large",
+                                       "too-many-elements",
+                                       "size-mismatch",
+                                       "unknown-type",
+                                       "duplicate-property",
+                                       "missing-property",
+                                       "missing-element",
+                                       "bad-property",
+                                       "index-out-of-range",
+                                       "non-finite",
+                                       "bad-face-degree",
+                                       "inconsistent-table",
+                                       "bad-json",
+                                       "bad-gltf",
+                                       "bad-accessor",
+                                       "forbidden-uri",
+                                       "unsupported-feature",
+                                       "cannot-create",
+                                       "cannot-write",
+                                       "bad-mesh"};
+static_assert(std::size(kErrorNames) == static_cast<std::size_t>(IoErrorCode::bad_mesh) + 1);
 
 // A path may hold a newline or an escape sequence; an error is one line and not for the terminal to
 // obey.
@@ -63,7 +63,7 @@ void append_visible(std::string& out, const std::string& text) {
 
 }  // namespace
 
-const char* name(IoErrorCode code) noexcept { return kNames[static_cast<std::size_t>(code)]; }
+const char* name(IoErrorCode code) noexcept { return kErrorNames[static_cast<std::size_t>(code)]; }
 
 std::string to_string(const IoError& error) {
   std::string out;

@@ -44,7 +44,7 @@ class OffReader {
   }
 
   bool read_counts() {
-    constexpr const char* kNames[] = {"vertices", "faces", "edges"};
+    constexpr const char* kCounted[] = {"vertices", "faces", "edges"};
     std::int64_t counts[3] = {};
     cursor_.skip_space_and_comments();
     for (int i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ class OffReader {
       const NumberStatus status = cursor_.read_integer(counts[i]);
       if (status == NumberStatus::bad || !cursor_.at_word_end() || counts[i] < 0) {
         return fail(IoErrorCode::bad_count, place,
-                    compose("the number of {} is {}", kNames[i], word_at(place)));
+                    compose("the number of {} is {}", kCounted[i], word_at(place)));
       }
       // Nobody needs the number of edges, and it is often wrong.
       const auto left = static_cast<std::size_t>(cursor_.end() - cursor_.position());
@@ -68,11 +68,11 @@ class OffReader {
           (status == NumberStatus::too_large || static_cast<std::uint64_t>(counts[i]) > most)) {
         return fail(IoErrorCode::count_too_large, place,
                     compose("{} {} are declared, the {} bytes left hold at most {}", word_at(place),
-                            kNames[i], left, most));
+                            kCounted[i], left, most));
       }
       if (counts[i] > kMaxCount && i < 2) {
         return fail(IoErrorCode::too_many_elements, place,
-                    compose("{} {}; at most {} can be read", counts[i], kNames[i], kMaxCount));
+                    compose("{} {}; at most {} can be read", counts[i], kCounted[i], kMaxCount));
       }
     }
     vertex_count_ = counts[0];

@@ -44,7 +44,7 @@ Result<void> embree_error(RTCDevice device) {
 
 Result<void> check_positions(const PaddedPositions& padded, Index vertex_count) {
   const Positions& positions = padded.positions;
-  if (auto ok = detail::check_float3(positions, vertex_count); !ok) return ok;
+  if (auto ok = hedgerow::detail::check_float3(positions, vertex_count); !ok) return ok;
   const auto stride = static_cast<std::int64_t>(positions.stride_bytes);
   if (vertex_count > 0 && stride > kMaxPositionBytes / vertex_count) {
     return fail(
