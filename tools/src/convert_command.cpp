@@ -11,7 +11,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
   std::string input;
   std::string output;
 };
@@ -26,7 +26,7 @@ struct Converted {
   double write_ms = 0;
 };
 
-Converted convert_mesh(Run& run, const Arguments& arguments) {
+Converted convert_mesh(Run& run, const ConvertArguments& arguments) {
   const MeshFile file = read_mesh(run, arguments.input);
   if (run.options().strict) {
     run.progress().step("checking");
@@ -39,7 +39,7 @@ Converted convert_mesh(Run& run, const Arguments& arguments) {
 }
 
 // Through faces, edges and sides would be numbered anew.
-Converted convert_tables(Run& run, const Arguments& arguments) {
+Converted convert_tables(Run& run, const ConvertArguments& arguments) {
   if (run.options().strict) {
     const MeshFile file = read_mesh(run, arguments.input);
     run.progress().step("checking");
@@ -54,7 +54,7 @@ Converted convert_tables(Run& run, const Arguments& arguments) {
   return {tables.vertex_count(), tables.face_count(), bytes, read_ms, writing.ms()};
 }
 
-ExitStatus convert(Run& run, const Arguments& arguments) {
+ExitStatus convert(Run& run, const ConvertArguments& arguments) {
   check_output_path(arguments.output);
   const bool keeps_tables = is_winged(arguments.input) && is_winged(arguments.output);
   run.progress().begin(run.options().strict ? 3 : 2);
@@ -82,7 +82,7 @@ ExitStatus convert(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_convert(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ConvertArguments>();
   Command command =
       program.add_command("convert", "Read a mesh in one format and write it in another",
                           "Polygons stay polygons, but in STL, where they are cut into triangles.",

@@ -15,7 +15,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct DecimateArguments {
   std::string input;
   std::string output;
   std::int64_t faces = 0;
@@ -24,8 +24,8 @@ struct Arguments {
 
 const char* end_name(DecimateEnd end) { return end == DecimateEnd::faces ? "faces" : "refused"; }
 
-std::string report_text(const Run& run, const Arguments& arguments, const Connectivity& before,
-                        const DecimateOutput& output, double ms) {
+std::string report_text(const Run& run, const DecimateArguments& arguments,
+                        const Connectivity& before, const DecimateOutput& output, double ms) {
   std::string text = fmt::format("{}\n{}: {} collapses in {}\n",
                                  before_after_text(before, output.mesh, run.colour()),
                                  arguments.output, output.collapses, time_text(ms));
@@ -42,7 +42,7 @@ std::string report_text(const Run& run, const Arguments& arguments, const Connec
   return text;
 }
 
-ExitStatus decimate_file(Run& run, const Arguments& arguments) {
+ExitStatus decimate_file(Run& run, const DecimateArguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -86,7 +86,7 @@ ExitStatus decimate_file(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_decimate(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DecimateArguments>();
   Command command = program.add_command(
       "decimate", "Make a mesh of fewer faces that looks like it",
       "Collapses edges, those first that move the surface least (quadric error). The outline of\n"

@@ -21,7 +21,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct DelaunayArguments {
   std::string input;
   std::string output;
   std::string edges;
@@ -61,7 +61,7 @@ std::vector<std::array<Index, 2>> read_edges(Run& run, const std::string& path) 
   return edges;
 }
 
-Failure describe_edges(const Error& error, const Arguments& arguments) {
+Failure describe_edges(const Error& error, const DelaunayArguments& arguments) {
   const auto failed = [&](std::string message) {
     return Failure{ExitStatus::input, arguments.edges, name(error.code), std::move(message), {}};
   };
@@ -79,7 +79,7 @@ Failure describe_edges(const Error& error, const Arguments& arguments) {
   }
 }
 
-ConstrainedTriangulation triangulation_of(Run& run, const Arguments& arguments,
+ConstrainedTriangulation triangulation_of(Run& run, const DelaunayArguments& arguments,
                                           const PointsFile& file,
                                           std::span<const std::array<Index, 2>> edges) {
   if (arguments.edges.empty()) {
@@ -102,7 +102,7 @@ Index constrained_edge_count(const ConstrainedTriangulation& made) {
   return sides / 2;
 }
 
-void print_triangulation(Run& run, const Arguments& arguments, const PointsFile& file,
+void print_triangulation(Run& run, const DelaunayArguments& arguments, const PointsFile& file,
                          const ConstrainedTriangulation& made, double ms) {
   const Connectivity& mesh = made.mesh;
   const Index repeated = repeated_points(made.same_as.span()).count;
@@ -132,7 +132,7 @@ void print_triangulation(Run& run, const Arguments& arguments, const PointsFile&
   run.print_json(json);
 }
 
-ExitStatus triangulate_points(Run& run, const Arguments& arguments) {
+ExitStatus triangulate_points(Run& run, const DelaunayArguments& arguments) {
   check_planar_output_path(arguments.output);
   run.progress().begin(3);
   run.progress().step("reading");
@@ -154,7 +154,7 @@ ExitStatus triangulate_points(Run& run, const Arguments& arguments) {
 
 // ---- surfaces
 
-DelaunayOptions flip_options(const Arguments& arguments) {
+DelaunayOptions flip_options(const DelaunayArguments& arguments) {
   DelaunayOptions options;
   options.test = arguments.test == "in-circle" ? DelaunayTest::in_circle : DelaunayTest::angle_sum;
   options.order = arguments.order == "queue" ? DelaunayOrder::queue : DelaunayOrder::rounds;
@@ -175,7 +175,7 @@ Value value_of(Result<Value>&& result, const std::string& path) {
   return std::move(*result);
 }
 
-Flipped flip_surface(Run& run, const Arguments& arguments, const OpenedMesh& opened) {
+Flipped flip_surface(Run& run, const DelaunayArguments& arguments, const OpenedMesh& opened) {
   const Positions positions = opened.kept.positions();
   EditMesh mesh = value_of(EditMesh::of(opened.mesh(), run.execution()), arguments.input);
   DelaunayOptions options = flip_options(arguments);
@@ -192,7 +192,7 @@ Flipped flip_surface(Run& run, const Arguments& arguments, const OpenedMesh& ope
   return done;
 }
 
-void print_flips(Run& run, const Arguments& arguments, const OpenedMesh& opened,
+void print_flips(Run& run, const DelaunayArguments& arguments, const OpenedMesh& opened,
                  const Flipped& done) {
   const DelaunayReport& report = done.report;
   if (run.is_text()) {
@@ -228,7 +228,7 @@ void print_flips(Run& run, const Arguments& arguments, const OpenedMesh& opened,
   run.print_json(json);
 }
 
-ExitStatus flip_file(Run& run, const Arguments& arguments) {
+ExitStatus flip_file(Run& run, const DelaunayArguments& arguments) {
   check_output_path(arguments.output);
   if (!arguments.edges.empty()) {
     throw Failure{ExitStatus::usage,
@@ -251,7 +251,7 @@ ExitStatus flip_file(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_delaunay(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DelaunayArguments>();
   Command command = program.add_command(
       "delaunay", "Triangulate points in the plane, or flip the edges of a surface",
       "Points (.xy or .csv) are triangulated with exact signs; vertex i is point i. A picture "

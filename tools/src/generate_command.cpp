@@ -12,7 +12,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct GenerateArguments {
   std::string shape;
   std::string output;
   std::int64_t size = shapes::kDefaultTriangles;
@@ -24,7 +24,7 @@ std::vector<std::string> shape_names() {
   return names;
 }
 
-ExitStatus generate(Run& run, const Arguments& arguments) {
+ExitStatus generate(Run& run, const GenerateArguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(run.options().strict ? 3 : 2);
   run.progress().step("generating");
@@ -62,7 +62,7 @@ ExitStatus generate(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_generate(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<GenerateArguments>();
   Command command =
       program.add_command("generate", "Write a mesh made by rule; the same bytes every time", "",
                           "hedgerow generate gyroid gyroid.ply --size 1000000",

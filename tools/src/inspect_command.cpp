@@ -8,11 +8,11 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct InspectArguments {
   std::string input;
 };
 
-ExitStatus inspect(Run& run, const Arguments& arguments) {
+ExitStatus inspect(Run& run, const InspectArguments& arguments) {
   run.progress().begin(3);
   run.progress().step("reading");
   const MeshFile file = read_mesh(run, arguments.input);
@@ -37,7 +37,7 @@ ExitStatus inspect(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_inspect(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InspectArguments>();
   Command command = program.add_command(
       "inspect", "Count what a mesh is made of and list its defects",
       "Exits with 0 for every mesh that can be parsed, whatever its defects, but for "

@@ -15,7 +15,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct NormalsArguments {
   std::string input;
   std::string output;
   std::string weight = "area";
@@ -35,7 +35,7 @@ struct Normals {
   double ms = 0;
 };
 
-Normals compute(const Run& run, const Arguments& arguments, const Connectivity& mesh,
+Normals compute(const Run& run, const NormalsArguments& arguments, const Connectivity& mesh,
                 const Soup& soup) {
   NormalOptions options;
   options.weight = weight_named(arguments.weight);
@@ -55,7 +55,7 @@ Normals compute(const Run& run, const Arguments& arguments, const Connectivity& 
   return normals;
 }
 
-ExitStatus write_normals(Run& run, const Arguments& arguments) {
+ExitStatus write_normals(Run& run, const NormalsArguments& arguments) {
   check_output_path(arguments.output, ".ply");
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -93,7 +93,7 @@ ExitStatus write_normals(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_normals(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<NormalsArguments>();
   Command command =
       program.add_command("normals", "Write a PLY file with a unit normal at every vertex",
                           "A vertex without a direction, such as one on no face, gets 0 0 0.",

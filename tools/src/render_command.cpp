@@ -17,7 +17,7 @@ namespace {
 constexpr int kMaxSide = 16384;
 constexpr int kMaxAoRays = 65536;
 
-struct Arguments {
+struct RenderArguments {
   std::string input;
   std::string output;
   std::string shading = "smooth";
@@ -45,7 +45,7 @@ void check_picture_path(const std::string& path) {
                 {}};
 }
 
-ExitStatus render_mesh(Run& run, const Arguments& arguments) {
+ExitStatus render_mesh(Run& run, const RenderArguments& arguments) {
   check_picture_path(arguments.output);
   run.progress().begin(5);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -89,7 +89,7 @@ ExitStatus render_mesh(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_render(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   Command command = program.add_command(
       "render", "Draw a mesh into a PNG picture by tracing rays",
       "The camera is fitted to the mesh. The same bytes for every number of threads. Faces seen\n"

@@ -15,7 +15,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct ReorderArguments {
   std::string input;
   std::string output;
   std::string order = "hilbert";
@@ -40,8 +40,8 @@ Json locality_json(const Locality& locality) {
   return {{"mean_index_gap", locality.mean_index_gap}, {"lines_per_face", locality.lines_per_face}};
 }
 
-std::string report_text(const Run& run, const Arguments& arguments, const ReorderOutput& output,
-                        bool has_helped, double ms) {
+std::string report_text(const Run& run, const ReorderArguments& arguments,
+                        const ReorderOutput& output, bool has_helped, double ms) {
   const Locality& before = output.before;
   const Locality& after = output.after;
   Table table(
@@ -56,7 +56,7 @@ std::string report_text(const Run& run, const Arguments& arguments, const Reorde
       has_helped ? "helped: fewer lines are fetched" : "did not help: no fewer lines are fetched");
 }
 
-ExitStatus reorder_file(Run& run, const Arguments& arguments) {
+ExitStatus reorder_file(Run& run, const ReorderArguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -93,7 +93,7 @@ ExitStatus reorder_file(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_reorder(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReorderArguments>();
   Command command = program.add_command(
       "reorder", "Renumber vertices and faces so that neighbours lie close in memory",
       "Prints a measure of locality before and after, and whether the new order helped.",

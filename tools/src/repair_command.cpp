@@ -15,7 +15,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct RepairArguments {
   std::string input;
   std::string output;
   std::string maps;
@@ -76,7 +76,7 @@ void count_vertices(const BuildOutput& output, Outcome& outcome) {
   outcome.vertices_dropped = welded_count + outcome.vertices_split - outcome.vertices_after;
 }
 
-std::string outcome_text(const Run& run, const Arguments& arguments, const Outcome& outcome) {
+std::string outcome_text(const Run& run, const RepairArguments& arguments, const Outcome& outcome) {
   Table kinds(
       {{"defect", Table::Align::left}, {"before"}, {"action", Table::Align::left}, {"after"}});
   bool is_any_cut = false;
@@ -105,7 +105,7 @@ std::string outcome_text(const Run& run, const Arguments& arguments, const Outco
   return out;
 }
 
-Json outcome_json(const Arguments& arguments, const Outcome& outcome) {
+Json outcome_json(const RepairArguments& arguments, const Outcome& outcome) {
   Json policies;
   Json before;
   Json after;
@@ -134,7 +134,7 @@ Json outcome_json(const Arguments& arguments, const Outcome& outcome) {
   return json;
 }
 
-void write_maps(const Arguments& arguments, const BuildOutput& output,
+void write_maps(const RepairArguments& arguments, const BuildOutput& output,
                 std::span<const Index> welded_to_old) {
   Json maps;
   maps["vertices_new_to_old"] =
@@ -144,7 +144,7 @@ void write_maps(const Arguments& arguments, const BuildOutput& output,
 }
 
 /// Merges vertices in place, if that was asked for. Returns the map to their old numbers.
-Buffer<Index> weld_vertices(const Arguments& arguments, Soup& soup) {
+Buffer<Index> weld_vertices(const RepairArguments& arguments, Soup& soup) {
   if (!arguments.weld) return {};
   Result<Weld> weld = find_weld(soup.positions(), *arguments.weld);
   if (!weld) throw describe(weld.error(), arguments.input);
@@ -152,7 +152,7 @@ Buffer<Index> weld_vertices(const Arguments& arguments, Soup& soup) {
   return std::move(weld->new_to_old);
 }
 
-ExitStatus repair(Run& run, const Arguments& arguments) {
+ExitStatus repair(Run& run, const RepairArguments& arguments) {
   check_output_path(arguments.output);
   Outcome outcome;
   outcome.policies = repair_policies(run.options(), arguments.drop_duplicates);
@@ -192,7 +192,7 @@ ExitStatus repair(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_repair(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RepairArguments>();
   Command command = program.add_command(
       "repair", "Apply the policies to a mesh and write the result",
       "Without --policy, edges and vertices that are not manifold are split, faces with a "

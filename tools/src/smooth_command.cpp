@@ -18,7 +18,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct SmoothArguments {
   std::string input;
   std::string output;
   int iterations = 1;
@@ -27,7 +27,7 @@ struct Arguments {
   bool is_in_place = false;
 };
 
-SmoothOptions options_of(const Arguments& arguments) {
+SmoothOptions options_of(const SmoothArguments& arguments) {
   SmoothOptions options{arguments.iterations, arguments.step};
   if (arguments.weights == "cotangent") options.weights = SmoothWeights::cotangent;
   if (arguments.is_in_place) options.update = SmoothUpdate::in_place;
@@ -52,7 +52,7 @@ Moves moves_between(const Buffer<float>& before, const Buffer<float>& after) {
   return moves;
 }
 
-ExitStatus smooth_file(Run& run, const Arguments& arguments) {
+ExitStatus smooth_file(Run& run, const SmoothArguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -95,7 +95,7 @@ ExitStatus smooth_file(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_smooth(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SmoothArguments>();
   Command command = program.add_command(
       "smooth", "Move vertices towards the mean of their neighbours",
       "The boundary stays. Cotangent weights take triangles only. Says how many vertices moved.",

@@ -18,7 +18,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct SubdivideArguments {
   std::string input;
   std::string output;
   std::string scheme;
@@ -33,7 +33,7 @@ SubdivisionScheme scheme_named(std::string_view word) {
 
 // Refuses what this machine cannot hold: a system that promises more memory than it has would end
 // the program in the middle. The finest level takes its columns and its positions, at least.
-void check_memory(const Connectivity& mesh, const Arguments& arguments) {
+void check_memory(const Connectivity& mesh, const SubdivideArguments& arguments) {
   const double factor = scheme_named(arguments.scheme) == SubdivisionScheme::sqrt3 ? 3 : 4;
   const double halfedges =
       static_cast<double>(mesh.halfedge_count()) * std::pow(factor, arguments.levels);
@@ -51,7 +51,7 @@ void check_memory(const Connectivity& mesh, const Arguments& arguments) {
                 {}};
 }
 
-ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
+ExitStatus subdivide_file(Run& run, const SubdivideArguments& arguments) {
   check_output_path(arguments.output);
   run.progress().begin(4);
   const OpenedMesh opened = open_mesh(run, arguments.input);
@@ -88,7 +88,7 @@ ExitStatus subdivide_file(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_subdivide(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SubdivideArguments>();
   Command command =
       program.add_command("subdivide", "Refine a mesh and smooth it on the way",
                           "Loop and sqrt3 take triangles only. Prints the counts before and after.",

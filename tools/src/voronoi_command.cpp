@@ -16,7 +16,7 @@
 namespace hedgerow::tool {
 namespace {
 
-struct Arguments {
+struct VoronoiArguments {
   std::string input;
   std::string output;
   std::vector<double> box;  ///< of four, or empty
@@ -68,8 +68,8 @@ Failure describe_box(const Error& error, const PointsFile& file, const Box2& box
   return failure;
 }
 
-void print_report(Run& run, const Arguments& arguments, const PointsFile& file, const Box2& box,
-                  const Voronoi& diagram, double ms) {
+void print_report(Run& run, const VoronoiArguments& arguments, const PointsFile& file,
+                  const Box2& box, const Voronoi& diagram, double ms) {
   const Areas areas = areas_of(diagram);
   const double box_area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
   const Index repeated = repeated_points(file, diagram).count;
@@ -99,7 +99,7 @@ void print_report(Run& run, const Arguments& arguments, const PointsFile& file, 
   run.print_json(json);
 }
 
-ExitStatus write_voronoi(Run& run, const Arguments& arguments) {
+ExitStatus write_voronoi(Run& run, const VoronoiArguments& arguments) {
   check_planar_output_path(arguments.output);
   run.progress().begin(3);
   run.progress().step("reading");
@@ -130,7 +130,7 @@ ExitStatus write_voronoi(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_voronoi(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<VoronoiArguments>();
   Command command =
       program.add_command("voronoi", "Divide a box into the cells of points in the plane",
                           "Cells are polygons and face i is the cell of point i, unless points "

@@ -27,7 +27,7 @@ constexpr shapes::Shape kBuiltInShape = shapes::Shape::gyroid;
 constexpr std::int64_t kBuiltInTriangles = 2'000'000;
 constexpr const char* kBuiltInName = "a generated gyroid of 2 million triangles";
 
-struct Arguments {
+struct ReportArguments {
   std::string input;
   std::string folder = "report";
 };
@@ -44,7 +44,8 @@ void make_folder(const std::string& folder) {
 /// too.
 class Input {
  public:
-  Input(Run& run, const Arguments& arguments) : name_(arguments.input), path_(arguments.input) {
+  Input(Run& run, const ReportArguments& arguments)
+      : name_(arguments.input), path_(arguments.input) {
     if (path_.empty()) {
       name_ = kBuiltInName;
       path_ = (std::filesystem::path(arguments.folder) / "mesh.ply").string();
@@ -134,7 +135,7 @@ Json write_files(ReportResult& result, const std::string& folder, const std::str
   return json;
 }
 
-ExitStatus report(Run& run, const Arguments& arguments) {
+ExitStatus report(Run& run, const ReportArguments& arguments) {
   make_folder(arguments.folder);
   run.progress().begin(kReportSteps);
   run.progress().step("measuring memory bandwidth");
@@ -170,7 +171,7 @@ ExitStatus report(Run& run, const Arguments& arguments) {
 }  // namespace
 
 void add_report(Program& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReportArguments>();
   Command command = program.add_command(
       "report", "Measure every operation on a mesh, checked and compared",
       "Each answer is checked against a reference before it is timed, on one thread and on all,\n"

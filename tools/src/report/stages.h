@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,8 @@
 #include "run.h"
 
 namespace hedgerow::tool {
+
+inline constexpr std::int64_t kIndexBytes = sizeof(Index);
 
 /// The mesh that the stages work on, in every form that they compare.
 struct Subject {

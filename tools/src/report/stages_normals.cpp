@@ -14,7 +14,6 @@ constexpr std::array<std::pair<NormalWeight, const char*>, 4> kWeights = {
      {NormalWeight::area, "area"},
      {NormalWeight::angle, "angle"},
      {NormalWeight::max, "max"}}};
-constexpr std::int64_t kIndex = sizeof(Index);
 constexpr std::int64_t kVector = 3 * sizeof(float);
 
 bool same_bits(const Buffer<float>& a, const Buffer<float>& b) {
@@ -28,13 +27,13 @@ NormalsOut out_of(Buffer<float>& normals) {
 /// Bytes of the face list: corners, and offsets where there are any.
 std::int64_t face_list_bytes(const Subject& subject) {
   const std::int64_t offsets = subject.mesh.is_implicit() ? 0 : subject.faces() + 1;
-  return kIndex * (subject.halfedges() + offsets);
+  return kIndexBytes * (subject.halfedges() + offsets);
 }
 
 /// Bytes that a walk round every vertex reads of the connectivity.
 std::int64_t walk_bytes(const Subject& subject) {
   const std::int64_t next = subject.mesh.is_implicit() ? 0 : subject.halfedges();
-  return kIndex * (2 * subject.halfedges() + next + subject.vertices());
+  return kIndexBytes * (2 * subject.halfedges() + next + subject.vertices());
 }
 
 /// Both ways to the vertex normals, on the same mesh with the same options.

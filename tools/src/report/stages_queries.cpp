@@ -12,8 +12,6 @@
 namespace hedgerow::tool {
 namespace {
 
-constexpr std::int64_t kIndex = sizeof(Index);
-
 /// Writes the elements of `sums` in `range`, and only these; reads the mesh.
 template <Topology Mesh>
 void gather_ring_sums(const Mesh& mesh, IndexRange range, std::span<std::uint32_t> sums) {
@@ -70,11 +68,11 @@ void measure_one_ring(Stages& stages, const Subject& subject) {
         },
         work);
   };
-  const std::int64_t implicit_bytes = kIndex * (2 * subject.halfedges() + subject.vertices());
+  const std::int64_t implicit_bytes = kIndexBytes * (2 * subject.halfedges() + subject.vertices());
   if (subject.mesh.is_implicit()) measure(subject.mesh.triangles(), "implicit", implicit_bytes);
   // `next` for every step; the face and its first half-edge for the one `prev` of each vertex.
   measure(subject.explicit_mesh.polygons(), "explicit",
-          implicit_bytes + kIndex * (subject.halfedges() + 2 * subject.vertices()));
+          implicit_bytes + kIndexBytes * (subject.halfedges() + 2 * subject.vertices()));
 }
 
 void measure_boundary_loops(Stages& stages, const Subject& subject) {
@@ -83,7 +81,7 @@ void measure_boundary_loops(Stages& stages, const Subject& subject) {
   stage.variant = subject.mesh.is_implicit() ? "implicit" : "explicit";
   stage.elements = subject.halfedges();
   stage.unit = "half-edge";
-  stage.bytes = kIndex * subject.halfedges();
+  stage.bytes = kIndexBytes * subject.halfedges();
   stage.mix = Mix::read;
   stages.run().progress().step("boundary_loops, the other meshes");
   std::int64_t count = 0;
@@ -104,7 +102,7 @@ void measure_components(Stages& stages, const Subject& subject) {
   stage.elements = subject.vertices();
   stage.unit = "vertex";
   // One column read, a label a vertex read and written.
-  stage.bytes = kIndex * (subject.halfedges() + 2 * subject.vertices());
+  stage.bytes = kIndexBytes * (subject.halfedges() + 2 * subject.vertices());
   stage.mix = Mix::read;
   stages.run().progress().step("components, the other meshes");
   std::int64_t count = 0;

@@ -51,7 +51,6 @@ bool is_same_mesh(const Connectivity& before, const ReorderOutput& output) {
 }  // namespace
 
 void measure_reorder(Stages& stages, const Subject& subject) {
-  constexpr std::int64_t kIndex = sizeof(Index);
   for (const auto& [method, word] : kMethods) {
     Stage stage{.name = "reorder", .variant = word};
     stage.elements = subject.halfedges();
@@ -59,7 +58,7 @@ void measure_reorder(Stages& stages, const Subject& subject) {
     // Every column in and out, positions in, four permutations out.
     stage.bytes = 2 * static_cast<std::int64_t>(subject.mesh.bytes()) +
                   static_cast<std::int64_t>(subject.soup.xyz.size_bytes()) +
-                  kIndex * (2 * subject.vertices() + subject.faces() + subject.halfedges());
+                  kIndexBytes * (2 * subject.vertices() + subject.faces() + subject.halfedges());
     stage.mix = Mix::copy;
     const auto work = [&, method = method](const Execution& execution) {
       return reorder(subject.mesh, subject.soup.positions(), method, execution);
