@@ -14,8 +14,6 @@ namespace {
 
 using Halfedge = PointerHalfedgeMesh::Halfedge;
 
-using Walk = HalfedgeWalk;
-
 }  // namespace
 
 PointerHalfedgeMesh::PointerHalfedgeMesh(const FaceList& faces, Positions positions) {
@@ -94,7 +92,7 @@ void PointerHalfedgeMesh::choose_outgoing() {
 
 void PointerHalfedgeMesh::compute_face_normals() {
   for (const auto& face : faces_) {
-    const detail::Vector area = detail::area_vector(Walk{}, face->halfedge);
+    const detail::Vector area = detail::area_vector(HalfedgeWalk{}, face->halfedge);
     detail::store(detail::normalized(area), face->normal);
     face->double_area = detail::length(area);
   }
@@ -102,13 +100,13 @@ void PointerHalfedgeMesh::compute_face_normals() {
 
 void PointerHalfedgeMesh::compute_vertex_normals(NormalWeight weight) {
   for (const auto& vertex : vertices_) {
-    detail::store(detail::vertex_normal(Walk{}, vertex->halfedge, weight), vertex->normal);
+    detail::store(detail::vertex_normal(HalfedgeWalk{}, vertex->halfedge, weight), vertex->normal);
   }
 }
 
 void PointerHalfedgeMesh::fill_one_ring_sums(std::span<std::uint32_t> sums) const {
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    sums[v] = detail::one_ring_sum(Walk{}, vertices_[v]->halfedge);
+    sums[v] = detail::one_ring_sum(HalfedgeWalk{}, vertices_[v]->halfedge);
   }
 }
 
@@ -121,7 +119,7 @@ Index PointerHalfedgeMesh::boundary_loop_count() const {
     const Halfedge* g = h.get();
     do {
       seen.insert(g);
-      g = detail::next_boundary(Walk{}, g);
+      g = detail::next_boundary(HalfedgeWalk{}, g);
     } while (g != h.get());
   }
   return loops;
@@ -144,10 +142,10 @@ std::vector<Index> PointerHalfedgeMesh::origin() const {
 
 namespace {
 
-using Numbers = std::unordered_map<const Halfedge*, Index>;
+using HalfedgeNumbers = std::unordered_map<const Halfedge*, Index>;
 
-Numbers number(const std::vector<std::unique_ptr<Halfedge>>& halfedges) {
-  Numbers numbers;
+HalfedgeNumbers number(const std::vector<std::unique_ptr<Halfedge>>& halfedges) {
+  HalfedgeNumbers numbers;
   numbers.reserve(halfedges.size() + 1);
   for (const auto& h : halfedges) numbers.emplace(h.get(), static_cast<Index>(numbers.size()));
   numbers.emplace(nullptr, kInvalidIndex);
@@ -157,7 +155,7 @@ Numbers number(const std::vector<std::unique_ptr<Halfedge>>& halfedges) {
 }  // namespace
 
 std::vector<Index> PointerHalfedgeMesh::opposite() const {
-  const Numbers numbers = number(halfedges_);
+  const HalfedgeNumbers numbers = number(halfedges_);
   std::vector<Index> opposite;
   opposite.reserve(halfedges_.size());
   for (const auto& h : halfedges_) opposite.push_back(numbers.at(h->opposite));
@@ -165,7 +163,7 @@ std::vector<Index> PointerHalfedgeMesh::opposite() const {
 }
 
 std::vector<Index> PointerHalfedgeMesh::outgoing() const {
-  const Numbers numbers = number(halfedges_);
+  const HalfedgeNumbers numbers = number(halfedges_);
   std::vector<Index> outgoing;
   outgoing.reserve(vertices_.size());
   for (const auto& vertex : vertices_) outgoing.push_back(numbers.at(vertex->halfedge));

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "baselines/src/at.h"
 #include "baselines/src/edge_map.h"
 #include "baselines/src/ring_algorithms.h"
 
@@ -13,9 +14,6 @@ namespace hedgerow::baselines {
 namespace {
 
 using Side = PointerWingedEdgeMesh::Side;
-using Walk = WingedWalk;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 struct SideHash {
   std::size_t operator()(Side s) const noexcept {
@@ -108,18 +106,20 @@ void PointerWingedEdgeMesh::make_edges(const FaceList& faces, const std::vector<
 }
 
 void PointerWingedEdgeMesh::choose_edges_of_vertices() {
-  const auto is_start = [](Side s) { return !Walk::is_valid(Walk::opposite(Walk::prev(s))); };
+  const auto is_start = [](Side s) {
+    return !WingedWalk::is_valid(WingedWalk::opposite(WingedWalk::prev(s)));
+  };
   for (const Side s : sides()) {
-    Vertex& vertex = *vertices_[at(Walk::origin(s))];
+    Vertex& vertex = *vertices_[at(WingedWalk::origin(s))];
     const bool is_better =
-        vertex.edge == nullptr || (is_start(s) && !is_start(Walk::outgoing(vertex)));
+        vertex.edge == nullptr || (is_start(s) && !is_start(WingedWalk::outgoing(vertex)));
     if (is_better) vertex.edge = const_cast<Edge*>(s.edge);
   }
 }
 
 void PointerWingedEdgeMesh::compute_face_normals() {
   for (const auto& face : faces_) {
-    const detail::Vector area = detail::area_vector(Walk{}, Walk::first(*face));
+    const detail::Vector area = detail::area_vector(WingedWalk{}, WingedWalk::first(*face));
     detail::store(detail::normalized(area), face->normal);
     face->double_area = detail::length(area);
   }
@@ -127,13 +127,14 @@ void PointerWingedEdgeMesh::compute_face_normals() {
 
 void PointerWingedEdgeMesh::compute_vertex_normals(NormalWeight weight) {
   for (const auto& vertex : vertices_) {
-    detail::store(detail::vertex_normal(Walk{}, Walk::outgoing(*vertex), weight), vertex->normal);
+    detail::store(detail::vertex_normal(WingedWalk{}, WingedWalk::outgoing(*vertex), weight),
+                  vertex->normal);
   }
 }
 
 void PointerWingedEdgeMesh::fill_one_ring_sums(std::span<std::uint32_t> sums) const {
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    sums[v] = detail::one_ring_sum(Walk{}, Walk::outgoing(*vertices_[v]));
+    sums[v] = detail::one_ring_sum(WingedWalk{}, WingedWalk::outgoing(*vertices_[v]));
   }
 }
 
@@ -142,12 +143,12 @@ Index PointerWingedEdgeMesh::boundary_loop_count() const {
   Index loops = 0;
   for (const auto& edge : edges_) {
     const Side start{edge.get(), false};
-    if (Walk::is_valid(Walk::opposite(start)) || seen.contains(start)) continue;
+    if (WingedWalk::is_valid(WingedWalk::opposite(start)) || seen.contains(start)) continue;
     ++loops;
     Side s = start;
     do {
       seen.insert(s);
-      s = detail::next_boundary(Walk{}, s);
+      s = detail::next_boundary(WingedWalk{}, s);
     } while (!(s == start));
   }
   return loops;
@@ -166,11 +167,11 @@ std::vector<Side> PointerWingedEdgeMesh::sides() const {
   std::vector<Side> sides;
   sides.reserve(2 * edges_.size());
   for (const auto& face : faces_) {
-    const Side start = Walk::first(*face);
+    const Side start = WingedWalk::first(*face);
     Side s = start;
     do {
       sides.push_back(s);
-      s = Walk::next(s);
+      s = WingedWalk::next(s);
     } while (!(s == start));
   }
   return sides;
@@ -178,16 +179,16 @@ std::vector<Side> PointerWingedEdgeMesh::sides() const {
 
 std::vector<Index> PointerWingedEdgeMesh::origin() const {
   std::vector<Index> origin;
-  for (const Side s : sides()) origin.push_back(Walk::origin(s));
+  for (const Side s : sides()) origin.push_back(WingedWalk::origin(s));
   return origin;
 }
 
 namespace {
 
-using Numbers = std::unordered_map<Side, Index, SideHash>;
+using SideNumbers = std::unordered_map<Side, Index, SideHash>;
 
-Numbers number(const std::vector<Side>& sides) {
-  Numbers numbers;
+SideNumbers number(const std::vector<Side>& sides) {
+  SideNumbers numbers;
   numbers.reserve(sides.size() + 1);
   for (const Side s : sides) numbers.emplace(s, static_cast<Index>(numbers.size()));
   numbers.emplace(Side{}, kInvalidIndex);
@@ -198,16 +199,17 @@ Numbers number(const std::vector<Side>& sides) {
 
 std::vector<Index> PointerWingedEdgeMesh::opposite() const {
   const std::vector<Side> all = sides();
-  const Numbers numbers = number(all);
+  const SideNumbers numbers = number(all);
   std::vector<Index> opposite;
-  for (const Side s : all) opposite.push_back(numbers.at(Walk::opposite(s)));
+  for (const Side s : all) opposite.push_back(numbers.at(WingedWalk::opposite(s)));
   return opposite;
 }
 
 std::vector<Index> PointerWingedEdgeMesh::outgoing() const {
-  const Numbers numbers = number(sides());
+  const SideNumbers numbers = number(sides());
   std::vector<Index> outgoing;
-  for (const auto& vertex : vertices_) outgoing.push_back(numbers.at(Walk::outgoing(*vertex)));
+  for (const auto& vertex : vertices_)
+    outgoing.push_back(numbers.at(WingedWalk::outgoing(*vertex)));
   return outgoing;
 }
 

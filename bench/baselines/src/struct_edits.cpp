@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "baselines/src/at.h"
 #include "baselines/src/triangle_edits.h"
 #include "baselines/struct_mesh.h"
 
@@ -10,8 +11,6 @@ namespace {
 
 /// Of a vertex that was removed; -1 is one without half-edges.
 constexpr Index kRemoved = -2;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Moves what stays to the front, in order; returns the new number of each.
 template <class Record, class IsGone>

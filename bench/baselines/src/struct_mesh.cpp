@@ -9,8 +9,6 @@ namespace hedgerow::baselines {
 
 namespace {
 
-using Walk = StructWalk;
-
 /// A half-edge under the smaller and larger vertex of its edge.
 struct EdgeRecord {
   Index smaller;
@@ -73,8 +71,8 @@ void StructHalfedgeMesh::pair_opposites() {
 }
 
 void StructHalfedgeMesh::choose_outgoing() {
-  const Walk walk(*this);
-  const auto is_start = [&](Index h) { return !Walk::is_valid(walk.opposite(walk.prev(h))); };
+  const StructWalk walk(*this);
+  const auto is_start = [&](Index h) { return !StructWalk::is_valid(walk.opposite(walk.prev(h))); };
   for (Index h = 0; h < halfedge_count(); ++h) {
     Index& outgoing = vertices_[static_cast<std::size_t>(walk.origin(h))].halfedge;
     if (outgoing == kInvalidIndex || (is_start(h) && !is_start(outgoing))) outgoing = h;
@@ -82,7 +80,7 @@ void StructHalfedgeMesh::choose_outgoing() {
 }
 
 void StructHalfedgeMesh::compute_face_normals() {
-  const Walk walk(*this);
+  const StructWalk walk(*this);
   for (Face& face : faces_) {
     const detail::Vector area = detail::area_vector(walk, face.halfedge);
     detail::store(detail::normalized(area), face.normal);
@@ -91,25 +89,25 @@ void StructHalfedgeMesh::compute_face_normals() {
 }
 
 void StructHalfedgeMesh::compute_vertex_normals(NormalWeight weight) {
-  const Walk walk(*this);
+  const StructWalk walk(*this);
   for (Vertex& vertex : vertices_) {
     detail::store(detail::vertex_normal(walk, vertex.halfedge, weight), vertex.normal);
   }
 }
 
 void StructHalfedgeMesh::fill_one_ring_sums(std::span<std::uint32_t> sums) const {
-  const Walk walk(*this);
+  const StructWalk walk(*this);
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     sums[v] = detail::one_ring_sum(walk, vertices_[v].halfedge);
   }
 }
 
 Index StructHalfedgeMesh::boundary_loop_count() const {
-  const Walk walk(*this);
+  const StructWalk walk(*this);
   std::vector<bool> is_seen(halfedges_.size(), false);
   Index loops = 0;
   for (Index h = 0; h < halfedge_count(); ++h) {
-    if (Walk::is_valid(walk.opposite(h)) || is_seen[static_cast<std::size_t>(h)]) continue;
+    if (StructWalk::is_valid(walk.opposite(h)) || is_seen[static_cast<std::size_t>(h)]) continue;
     ++loops;
     Index g = h;
     do {
@@ -121,7 +119,7 @@ Index StructHalfedgeMesh::boundary_loop_count() const {
 }
 
 Index StructHalfedgeMesh::component_count() const {
-  const Walk walk(*this);
+  const StructWalk walk(*this);
   detail::Sets sets(vertices_.size());
   for (Index h = 0; h < halfedge_count(); ++h) {
     sets.unite(walk.origin(h), walk.origin(walk.next(h)));
