@@ -11,22 +11,13 @@
 #include "hedgerow/query.h"
 #include "hedgerow/validate.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/same_columns.h"
+#include "support/serial.h"
 
 namespace hedgerow::test {
 namespace {
-
-const Execution kSerial = Execution::serial();
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-template <class Range>
-std::vector<Index> numbers(const Range& range) {
-  std::vector<Index> out;
-  for (const auto id : range) out.push_back(id.value);
-  return out;
-}
 
 /// Everything that can be asked without a vertex, beside the view of the whole mesh.
 template <Topology Mesh>

@@ -40,12 +40,12 @@ struct Input {
   }
 };
 
-Input tetrahedron() {
+Input tetrahedron_input() {
   return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, {}};
 }
 
 /// Two triangles and a quad in one row, lying in z = 0, and one vertex unused.
-Input strip() {
+Input strip_input() {
   return {{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0, 9, 9, 9},
           {0, 1, 2, 1, 3, 2, 1, 4, 5, 3},
           {0, 3, 6, 10}};
@@ -73,7 +73,7 @@ using Meshes = testing::Types<PointerHalfedgeMesh, PointerWingedEdgeMesh, Struct
 TYPED_TEST_SUITE(Baseline, Meshes);
 
 TYPED_TEST(Baseline, PairsTheHalfedgesOfATetrahedron) {
-  const Input input = tetrahedron();
+  const Input input = tetrahedron_input();
   const TypeParam mesh(input.faces(), input.positions());
   EXPECT_EQ(mesh.origin(), input.corners);
   EXPECT_EQ(mesh.opposite(), (std::vector<Index>{9, 6, 3, 2, 8, 10, 1, 11, 4, 0, 5, 7}));
@@ -83,7 +83,7 @@ TYPED_TEST(Baseline, PairsTheHalfedgesOfATetrahedron) {
 }
 
 TYPED_TEST(Baseline, LeavesTheBoundaryOfPolygonsWithoutOpposite) {
-  const Input input = strip();
+  const Input input = strip_input();
   const TypeParam mesh(input.faces(), input.positions());
   EXPECT_EQ(mesh.face_count(), 3);
   EXPECT_EQ(mesh.opposite(), (std::vector<Index>{-1, 5, -1, 9, -1, 1, -1, -1, -1, 3}));
@@ -103,7 +103,7 @@ TYPED_TEST(Baseline, PairsNothingOnAnEdgeWithThreeHalfedgesOrTwoThatRunTheSameWa
 }
 
 TYPED_TEST(Baseline, SumsTheIdsOfTheOneRing) {
-  const Input input = strip();
+  const Input input = strip_input();
   const TypeParam mesh(input.faces(), input.positions());
   std::vector<std::uint32_t> sums(7, 99);
   mesh.fill_one_ring_sums(sums);
@@ -112,7 +112,7 @@ TYPED_TEST(Baseline, SumsTheIdsOfTheOneRing) {
 }
 
 TYPED_TEST(Baseline, GivesAFlatPatchTheSameNormalEverywhereWithEveryWeight) {
-  const Input input = strip();
+  const Input input = strip_input();
   TypeParam mesh(input.faces(), input.positions());
   mesh.compute_face_normals();
   EXPECT_EQ(mesh.face_normals(), (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
@@ -128,7 +128,7 @@ TYPED_TEST(Baseline, GivesAFlatPatchTheSameNormalEverywhereWithEveryWeight) {
 
 TYPED_TEST(Baseline, WeighsTheFacesOfACornerAsAsked) {
   // At vertex 0 all three corners are right angles between unit edges, so all weights are equal.
-  const Input input = tetrahedron();
+  const Input input = tetrahedron_input();
   TypeParam mesh(input.faces(), input.positions());
   mesh.compute_face_normals();
   for (const NormalWeight weight :

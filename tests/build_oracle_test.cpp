@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "hedgerow/build.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 
@@ -85,10 +86,6 @@ Policies any_policies(Random& random) {
     policies[kind] = action;
   }
   return policies;
-}
-
-std::vector<Index> to_vector(std::span<const Index> values) {
-  return {values.begin(), values.end()};
 }
 
 template <class View>

@@ -26,7 +26,7 @@ std::uint64_t digest_of(const Soup& soup, const BuildOptions& options) {
   return built ? digest(built->mesh, Execution::serial()) : 0;
 }
 
-std::vector<Soup> soups() {
+std::vector<Soup> soups_to_build() {
   std::vector<Soup> all;
   all.push_back(*shapes::grid(100, 50));
   all.push_back(shapes::shuffled(*shapes::grid(300, 200), 1));
@@ -38,7 +38,7 @@ std::vector<Soup> soups() {
 }
 
 TEST(BuildWorkspace, ChangesNoResultWhateverWasBuiltBefore) {
-  const std::vector<Soup> all = soups();
+  const std::vector<Soup> all = soups_to_build();
   std::mt19937 random(7);
   BuildWorkspace workspace;
   for (int i = 0; i < 60; ++i) {
@@ -63,7 +63,7 @@ TEST(BuildWorkspace, SurvivesAMoveAndTheMeshesItHelpedToBuild) {
 }
 
 TEST(BuildWorkspace, LeavesASecondBuildOnlyItsResultToAllocate) {
-  for (const Soup& soup : soups()) {
+  for (const Soup& soup : soups_to_build()) {
     if (!soup.offsets.empty() || soup.face_count() == 0) continue;
     for (const auto strategy : {BuildStrategy::window, BuildStrategy::partition}) {
       BuildWorkspace workspace;

@@ -11,27 +11,17 @@
 
 #include "hedgerow/connectivity.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 
 namespace hedgerow::test {
 namespace {
 
-using Numbers = std::vector<Index>;
-
-template <class Range>
-Numbers numbers(const Range& range) {
-  Numbers result;
-  for (const auto element : range) result.push_back(element.value);
-  return result;
-}
-
 Numbers sorted(Numbers values) {
   std::sort(values.begin(), values.end());
   return values;
 }
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 static_assert(std::ranges::forward_range<
               decltype(outgoing_halfedges(std::declval<const TriangleView&>(), VertexId()))>);

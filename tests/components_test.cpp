@@ -12,17 +12,13 @@
 #include "kernels/join_sets.h"
 #include "kernels/smaller_neighbours.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 #include "support/threads.h"
 
 namespace hedgerow::test {
 namespace {
-
-using Numbers = std::vector<Index>;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-Numbers to_vector(const Buffer<Index>& values) { return {values.begin(), values.end()}; }
 
 // Quads or pairs of triangles in rows, from vertex `first` on.
 void add_grid(PlainFaces& list, std::int64_t n, std::int64_t first, bool is_cut) {

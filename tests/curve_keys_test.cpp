@@ -89,7 +89,8 @@ TEST(StableSort, AgreesWithTheStandardOne) {
       for (const int threads : {1, 8}) {
         test::Threads pool(threads);
         Buffer<KeyedItem> items = Buffer<KeyedItem>::copy_of(expected);
-        const Buffer<Index> found = detail::sorted_items(std::move(items), pool.execution());
+        const Buffer<Index> found =
+            hedgerow::detail::sorted_items(std::move(items), pool.execution());
         std::vector<KeyedItem> sorted = expected;
         std::stable_sort(sorted.begin(), sorted.end(),
                          [](const KeyedItem& a, const KeyedItem& b) { return a.key < b.key; });

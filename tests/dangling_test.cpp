@@ -16,20 +16,19 @@
 #include "hedgerow/validate.h"
 #include "hedgerow/winged_edge.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/same_answers.h"
 #include "support/same_columns.h"
+#include "support/serial.h"
 
 namespace hedgerow::test {
 namespace {
 
-const Execution kSerial = Execution::serial();
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 EdgeVertices edge(Index a, Index b) { return {VertexId(a), VertexId(b)}; }
 
 /// The columns of a mesh in the closed form, with `prev` beside them.
-ReferenceMesh reference_of(const Connectivity& mesh) {
+ReferenceMesh closed_columns_of(const Connectivity& mesh) {
   const PolygonView view = mesh.polygons();
   const auto list = [](const auto& column) {
     return std::vector<Index>(column.data(), column.data() + column.size());
@@ -105,7 +104,7 @@ TEST(DanglingEdges, LieAtEachVertexWhereTheContractSays) {
         add_dangling_edges(to_connectivity(seed % 2 == 0 ? open : closed), edges, kSerial);
     ASSERT_TRUE(output);
     EXPECT_TRUE(validate(output->mesh, kSerial).empty());
-    const ReferenceMesh mesh = reference_of(output->mesh);
+    const ReferenceMesh mesh = closed_columns_of(output->mesh);
 
     std::map<std::pair<Index, Index>, bool> is_there;
     for (std::size_t h = 0; h < closed.origin.size(); ++h) {
@@ -155,7 +154,7 @@ TEST(DanglingEdges, AreCountedInComponentsAndPassedByBoundaryLoops) {
     const auto output = add_dangling_edges(to_connectivity(open),
                                            random_edges(random, open.vertex_count()), kSerial);
     ASSERT_TRUE(output);
-    const ReferenceMesh mesh = reference_of(output->mesh);
+    const ReferenceMesh mesh = closed_columns_of(output->mesh);
     const Components components = connected_components(output->mesh);
     EXPECT_EQ(std::vector<Index>(components.label.begin(), components.label.end()),
               reference_components(mesh));
@@ -180,7 +179,7 @@ TEST(DanglingEdges, ComeBackThroughRecords) {
     const auto output = add_dangling_edges(to_connectivity(open),
                                            random_edges(random, open.vertex_count()), kSerial);
     ASSERT_TRUE(output);
-    const ReferenceMesh mesh = reference_of(output->mesh);
+    const ReferenceMesh mesh = closed_columns_of(output->mesh);
     const auto dcel = build_dcel(output->mesh, kSerial);
     ASSERT_TRUE(dcel);
     const auto from_dcel = build_connectivity(*dcel);
@@ -222,7 +221,7 @@ TEST(DanglingEdges, AloneAreALoopRoundEachTree) {
 TEST(DanglingEdges, ThatAreThereAlreadyAreNamedAndNotDoubled) {
   const std::vector<EdgeVertices> edges = {edge(1, 0), edge(0, 3), edge(3, 0), edge(0, 3)};
   const auto output =
-      add_dangling_edges(to_connectivity(test::reference_of({{{0, 1, 2}}, 4})), edges, kSerial);
+      add_dangling_edges(to_connectivity(reference_of({{{0, 1, 2}}, 4})), edges, kSerial);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->added_count, 1);
   const PolygonView view = output->mesh.polygons();
@@ -233,7 +232,7 @@ TEST(DanglingEdges, ThatAreThereAlreadyAreNamedAndNotDoubled) {
 }
 
 TEST(DanglingEdges, WithWrongVerticesAreRefusedByName) {
-  const Connectivity mesh = to_connectivity(test::reference_of({{{0, 1, 2}}, 4}));
+  const Connectivity mesh = to_connectivity(reference_of({{{0, 1, 2}}, 4}));
   const auto far =
       add_dangling_edges(mesh, std::vector{edge(0, 3), edge(1, 4), edge(-1, 2)}, kSerial);
   ASSERT_FALSE(far);

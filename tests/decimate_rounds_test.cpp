@@ -14,6 +14,7 @@
 #include "hedgerow/query.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
+#include "support/decimated.h"
 #include "support/meshes.h"
 #include "support/plain_build.h"
 #include "support/random_faces.h"
@@ -22,9 +23,6 @@
 namespace hedgerow::test {
 namespace {
 
-Connectivity mesh_of(const Soup& soup) {
-  return std::move(build(soup.face_list(), {}, Execution::serial())->mesh);
-}
 DecimateOptions rounds(std::int64_t faces, Index part_vertices) {
   DecimateOptions options;
   options.faces = faces;
@@ -32,17 +30,10 @@ DecimateOptions rounds(std::int64_t faces, Index part_vertices) {
   options.part_vertices = part_vertices;
   return options;
 }
-DecimateOutput decimated(const Connectivity& mesh, const Positions& positions,
-                         const DecimateOptions& options) {
-  auto output = decimate(mesh, positions, options, Execution::serial());
-  EXPECT_TRUE(output);
-  return std::move(*output);
-}
-
 TEST(DecimateRounds, LeaveAsManyFacesAsAsked) {
   for (const Soup& soup : {*shapes::torus(48, 24), *shapes::terrain(40, 40), *shapes::icosphere(4),
                            *shapes::gyroid(10)}) {
-    const Connectivity mesh = mesh_of(soup);
+    const Connectivity mesh = built(soup);
     const Connectivity closed = std::move(*close_boundary(mesh, Execution::serial()));
     for (const Connectivity* form : {&mesh, &closed}) {
       const std::int64_t faces = mesh.face_count() / 8;
@@ -65,7 +56,7 @@ TEST(DecimateRounds, LeaveAsManyFacesAsAsked) {
 
 TEST(DecimateRounds, GiveTheSameBitsOnAllThreads) {
   for (const Soup& soup : {*shapes::terrain(60, 60), *shapes::gyroid(10)}) {
-    const Connectivity mesh = mesh_of(soup);
+    const Connectivity mesh = built(soup);
     const DecimateOptions options = rounds(mesh.face_count() / 10, 150);
     const DecimateOutput expected = decimated(mesh, soup.positions(), options);
     for (const int count : kThreadCounts) {
@@ -87,7 +78,7 @@ TEST(DecimateRounds, GiveTheSameBitsOnAllThreads) {
 // One part is a queue that stops now and then, and is sorted to a sixteenth like any other.
 TEST(DecimateRounds, CostNotMuchMoreThanAQueue) {
   for (const Soup& soup : {*shapes::terrain(100, 100), *shapes::gyroid(16)}) {
-    const Connectivity mesh = mesh_of(soup);
+    const Connectivity mesh = built(soup);
     const std::int64_t faces = mesh.face_count() / 10;
     DecimateOptions one_queue;
     one_queue.faces = faces;
@@ -104,7 +95,7 @@ TEST(DecimateRounds, CostNotMuchMoreThanAQueue) {
 TEST(DecimateRounds, AcceptNineOfTenCandidates) {
   const Soup soup = *shapes::terrain(160, 160);
   const DecimateOutput output =
-      decimated(mesh_of(soup), soup.positions(), rounds(soup.face_count() / 10, 4096));
+      decimated(built(soup), soup.positions(), rounds(soup.face_count() / 10, 4096));
   EXPECT_GT(output.candidates, 10'000);
   EXPECT_GE(10 * output.accepted, 9 * output.candidates);
   EXPECT_GT(output.postponed, 0);
@@ -114,7 +105,7 @@ TEST(DecimateRounds, AcceptNineOfTenCandidates) {
 TEST(DecimateRounds, KeepASphereRound) {
   const Soup soup = *shapes::icosphere(5);
   const DecimateOutput output =
-      decimated(mesh_of(soup), soup.positions(), rounds(soup.face_count() / 20, 1000));
+      decimated(built(soup), soup.positions(), rounds(soup.face_count() / 20, 1000));
   for (std::size_t i = 0; i < output.positions.size(); i += 3) {
     EXPECT_NEAR(std::hypot(output.positions[i], output.positions[i + 1], output.positions[i + 2]),
                 1, 0.01);
@@ -123,7 +114,7 @@ TEST(DecimateRounds, KeepASphereRound) {
 
 TEST(DecimateRounds, StopWhereItCostsTooMuch) {
   const Soup soup = *shapes::terrain(40, 40);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   DecimateOptions options = rounds(0, 300);
   options.max_cost = decimated(mesh, soup.positions(), rounds(800, 300)).largest_cost / 4;
   const DecimateOutput held = decimated(mesh, soup.positions(), options);
@@ -148,7 +139,7 @@ void expect_all_once(const std::vector<Id>& map, Index count, bool is_ascending)
 }
 TEST(DecimateRounds, SayWhereEverythingWent) {
   const Soup soup = *shapes::torus(60, 40);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput output =
       decimated(mesh, soup.positions(), rounds(mesh.face_count() / 20, 300));
   const CompactMaps& maps = output.maps;

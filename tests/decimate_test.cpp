@@ -15,6 +15,7 @@
 #include "hedgerow/query.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
+#include "support/decimated.h"
 #include "support/meshes.h"
 #include "support/plain_build.h"
 #include "support/random_faces.h"
@@ -22,16 +23,6 @@
 
 namespace hedgerow::test {
 namespace {
-
-Connectivity mesh_of(const Soup& soup) {
-  return std::move(build(soup.face_list(), {}, Execution::serial())->mesh);
-}
-DecimateOutput decimated(const Connectivity& mesh, const Positions& positions,
-                         const DecimateOptions& options) {
-  auto output = decimate(mesh, positions, options, Execution::serial());
-  EXPECT_TRUE(output);
-  return std::move(*output);
-}
 
 struct Invariants {
   std::int64_t euler;
@@ -78,14 +69,11 @@ double area_of(const Connectivity& mesh, const Positions& positions) {
   }
   return area;
 }
-Positions positions_of(const DecimateOutput& output) {
-  return {output.positions.data(), output.mesh.vertex_count()};
-}
 
 TEST(Decimate, LeavesAsManyFacesAsAsked) {
   for (const Soup& soup : {*shapes::torus(24, 12), *shapes::terrain(20, 20), *shapes::icosphere(3),
                            *shapes::gyroid(8)}) {
-    const Connectivity mesh = mesh_of(soup);
+    const Connectivity mesh = built(soup);
     for (const std::int64_t faces : {mesh.face_count() / 2, mesh.face_count() / 5}) {
       const DecimateOutput output = decimated(mesh, soup.positions(), {.faces = faces});
       EXPECT_EQ(output.end, DecimateEnd::faces);
@@ -101,7 +89,7 @@ TEST(Decimate, LeavesAsManyFacesAsAsked) {
 
 TEST(Decimate, DoesNothingWhereThereAreFewFacesAlready) {
   const Soup soup = *shapes::torus(6, 5);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput output = decimated(mesh, soup.positions(), {.faces = mesh.face_count()});
   EXPECT_EQ(output.collapses, 0);
   EXPECT_EQ(digest(output.mesh, Execution::serial()), digest(mesh, Execution::serial()));
@@ -112,7 +100,7 @@ TEST(Decimate, DoesNothingWhereThereAreFewFacesAlready) {
 TEST(Decimate, LeavesTwoTrianglesOfAFlatSquare) {
   Soup soup = *shapes::grid(16, 16);
   for (std::size_t i = 2; i < soup.xyz.size(); i += 3) soup.xyz[i] = 0;
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput output = decimated(mesh, soup.positions(), {.faces = 2});
   EXPECT_EQ(output.mesh.face_count(), 2);
   EXPECT_NEAR(area_of(output.mesh, positions_of(output)), area_of(mesh, soup.positions()),
@@ -122,7 +110,7 @@ TEST(Decimate, LeavesTwoTrianglesOfAFlatSquare) {
 TEST(Decimate, KeepsASphereRound) {
   const Soup soup = *shapes::icosphere(5);
   const DecimateOutput output =
-      decimated(mesh_of(soup), soup.positions(), {.faces = soup.face_count() / 20});
+      decimated(built(soup), soup.positions(), {.faces = soup.face_count() / 20});
   const Positions positions = positions_of(output);
   for (Index v = 0; v < output.mesh.vertex_count(); ++v) {
     const auto p = point(positions, v);
@@ -214,7 +202,7 @@ class PlainDecimation {
 
 TEST(Decimate, TakesTheCheapestEdgeToASixteenth) {
   for (const Soup& soup : {*shapes::icosphere(1), *shapes::torus(8, 6)}) {
-    const Connectivity mesh = mesh_of(soup);
+    const Connectivity mesh = built(soup);
     const DecimateOutput output =
         decimated(mesh, soup.positions(), {.faces = mesh.face_count() - 1});
     ASSERT_EQ(output.collapses, 1);
@@ -226,7 +214,7 @@ TEST(Decimate, TakesTheCheapestEdgeToASixteenth) {
 
 TEST(Decimate, StopsWhereItCostsTooMuch) {
   const Soup soup = *shapes::icosphere(3);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput free = decimated(mesh, soup.positions(), {.faces = mesh.face_count() / 4});
   const DecimateOutput held =
       decimated(mesh, soup.positions(), {.faces = 0, .max_cost = free.largest_cost / 4});
@@ -247,7 +235,7 @@ TEST(Decimate, EndsAtWhatCannotBeCollapsed) {
 
 TEST(Decimate, TurnsNoCornerOver) {
   const Soup soup = *shapes::terrain(24, 24, 3);
-  const DecimateOutput output = decimated(mesh_of(soup), soup.positions(), {.faces = 60});
+  const DecimateOutput output = decimated(built(soup), soup.positions(), {.faces = 60});
   const auto faces = corners_of(output.mesh, positions_of(output));
   ASSERT_GT(faces.size(), 50U);
   for (const auto& p : faces) {
@@ -260,7 +248,7 @@ TEST(Decimate, TurnsNoCornerOver) {
 
 TEST(Decimate, GivesTheSameBitsOnAllThreadsAndInBothForms) {
   const Soup soup = *shapes::gyroid(10);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const Connectivity closed = std::move(*close_boundary(mesh, Execution::serial()));
   const DecimateOptions options{.faces = mesh.face_count() / 6};
   const DecimateOutput expected = decimated(mesh, soup.positions(), options);
@@ -280,7 +268,7 @@ TEST(Decimate, GivesTheSameBitsOnAllThreadsAndInBothForms) {
 
 TEST(Decimate, SaysWhereEverythingWent) {
   const Soup soup = *shapes::torus(20, 10);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput output = decimated(mesh, soup.positions(), {.faces = 100});
   ASSERT_EQ(output.maps.vertices.size(), static_cast<std::size_t>(mesh.vertex_count()));
   ASSERT_EQ(output.maps.faces.size(), static_cast<std::size_t>(mesh.face_count()));
@@ -296,7 +284,7 @@ TEST(Decimate, SaysWhereEverythingWent) {
 TEST(Decimate, TakesPolygonsAndAnythingElse) {
   const Soup quads = *shapes::quad_grid(12, 12);
   const DecimateOutput output =
-      decimated(mesh_of(quads), quads.positions(), {.faces = quads.face_count() / 2});
+      decimated(built(quads), quads.positions(), {.faces = quads.face_count() / 2});
   EXPECT_TRUE(validate(output.mesh, Execution::serial()).empty());
   EXPECT_LE(output.mesh.face_count(), quads.face_count());
 
@@ -320,7 +308,7 @@ TEST(Decimate, LeavesEdgesAloneWhosePositionsAreNotFinite) {
   Soup soup = *shapes::torus(12, 8);
   soup.xyz[0] = std::numeric_limits<float>::quiet_NaN();
   soup.xyz[100] = std::numeric_limits<float>::infinity();
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const DecimateOutput output = decimated(mesh, soup.positions(), {.faces = 0});
   EXPECT_EQ(output.end, DecimateEnd::refused);
   EXPECT_TRUE(validate(output.mesh, Execution::serial()).empty());

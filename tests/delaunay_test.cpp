@@ -10,6 +10,7 @@
 
 #include "hedgerow/build.h"
 #include "hedgerow/triangulate.h"
+#include "support/edit_mesh.h"
 #include "support/edit_soundness.h"
 #include "support/meshes.h"
 #include "support/planar_checks.h"
@@ -26,10 +27,6 @@ struct Surface {
     return {xyz.data(), static_cast<std::int64_t>(xyz.size() / 3)};
   }
 };
-
-EditMesh edit_mesh(const PlainFaces& list) {
-  return std::move(*EditMesh::of(to_connectivity(reference_of(list)), Execution::serial()));
-}
 
 float coordinate(double value) { return static_cast<float>(value); }
 

@@ -21,6 +21,7 @@
 #include "hedgerow/reorder.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/workspace.h"
+#include "support/plain_build.h"
 #include "support/threads.h"
 
 namespace hedgerow::test {
@@ -43,93 +44,95 @@ struct Row {
   Digests expected;
 };
 
-using enum shapes::Shape;
-constexpr std::array kGolden = {
-    Row{grid,
-        false,
-        {0x309cc3d185becb2bU, 0x08b012a55a3bb1bcU, 0x791231dc51a41904U, 0xdcaa8656d1f4ed0cU,
-         0x59380813de2eed56U}},
-    Row{grid,
-        true,
-        {0x4f95f0a07d9e7568U, 0x56c611aa3e5d7436U, 0xd8ce363c6b1b054aU, 0x7c627a97d6132025U,
-         0x6f9fa23afc354782U}},
-    Row{quad_grid,
-        false,
-        {0x309cc3d185becb2bU, 0x324e359a056ce6e6U, 0x3ec42b4552647ad1U, 0xd69d5c251be6005cU,
-         0x29a9b4caa9d2f393U}},
-    Row{quad_grid,
-        true,
-        {0x4f95f0a07d9e7568U, 0x7103d5cce4ab86d8U, 0xf0159ebbf7bec164U, 0x4bee337f0545554fU,
-         0x6befa9faa7005ef4U}},
-    Row{torus,
-        false,
-        {0x6032e268ce8927d1U, 0x520ab4d010f75cfaU, 0x85bc23588be224c5U, 0x0d007d5e81412c6bU,
-         0x539303f12865ac72U}},
-    Row{torus,
-        true,
-        {0x07bf1948d3fb4b95U, 0xe2ed57de4d401012U, 0x894631ade7b7ceeeU, 0x741b72b415dca4f0U,
-         0xa0260c42ea892ff0U}},
-    Row{icosphere,
-        false,
-        {0xf0df18cad3278fceU, 0x2c8087c71abf2b09U, 0xb87b3771420b50c4U, 0x4ae06c990aa1870aU,
-         0xe666e01eeec970acU}},
-    Row{icosphere,
-        true,
-        {0x7b269c78d5420d0dU, 0xdc2ca89a4071664dU, 0xa86ecbf55562e5acU, 0xc78c169bbe2f4d99U,
-         0x471df6b955af6001U}},
-    Row{fan,
-        false,
-        {0xadb85666c05c5eadU, 0xdcee06f5a54867b1U, 0x542c8d229972c616U, 0x767601ede0f56aa9U,
-         0x316081fecdc42460U}},
-    Row{fan,
-        true,
-        {0x768f77bdaaee5c20U, 0x691c09352576697cU, 0x553f676aa970ce7aU, 0x5dfce34d2764749cU,
-         0x3b44a96518ae2087U}},
-    Row{strip,
-        false,
-        {0xecf742df07964f4aU, 0x2ce1fd93830df665U, 0x3561267d6a49671cU, 0xb5d600de70390819U,
-         0xc5f780fc470fe689U}},
-    Row{strip,
-        true,
-        {0x060080674ebb85d1U, 0xac61fb30811ebffbU, 0x5fcc8bcc37c36029U, 0x1756dcaa344b6500U,
-         0x5905d49c5e1c9b05U}},
-    Row{mobius,
-        false,
-        {0x42eb5add2d44fd41U, 0xa855c4fc9b5ae90eU, 0x6b9a0ce654c66e99U, 0xddceb9266e95ba37U,
-         0xe75ad0e51b36c9e7U}},
-    Row{mobius,
-        true,
-        {0xadb96f96e3bb4914U, 0x820633dcfbb955beU, 0x9793075aa6a08e20U, 0xa497b7436b077595U,
-         0xf63d382d827d790fU}},
-    Row{klein,
-        false,
-        {0x997e9b2921a787f3U, 0x7205197d7f3feefdU, 0xcfb8dcb401c60e64U, 0xe93dc96bf35027e8U,
-         0x3bc8cee8134382fcU}},
-    Row{klein,
-        true,
-        {0x7886ed8f9d096f69U, 0x412bf1f9b7dbb297U, 0xc932e5cb043b4ad5U, 0x6d61cf70da36248bU,
-         0xa669ef060534bd04U}},
-    Row{terrain,
-        false,
-        {0x84fb254bbe44fb13U, 0x08b012a55a3bb1bcU, 0x8e1a5846364460a6U, 0x375de8c21b937b9eU,
-         0xa545938b5080df8fU}},
-    Row{terrain,
-        true,
-        {0x390d045d34ea749bU, 0x56c611aa3e5d7436U, 0x156247735da2e296U, 0x0a04d12c8e9cfad9U,
-         0xcbe32a714510969dU}},
-    Row{gyroid,
-        false,
-        {0xdc144598b3e6b011U, 0x42bbe42312d54b83U, 0xa840ef61c7053ddfU, 0x50988256f7ab69e2U,
-         0x5e1ee2b147a64a6fU}},
-    Row{gyroid,
-        true,
-        {0xb7d477b29081df9bU, 0x6f27f2b97c5354e5U, 0x8bb6048aeba4d996U, 0x7e6cf6ee0968d9c2U,
-         0x87fbd493c6a139f5U}},
-};
+constexpr std::array kGolden = [] {
+  using enum shapes::Shape;
+  return std::array{
+      Row{grid,
+          false,
+          {0x309cc3d185becb2bU, 0x08b012a55a3bb1bcU, 0x791231dc51a41904U, 0xdcaa8656d1f4ed0cU,
+           0x59380813de2eed56U}},
+      Row{grid,
+          true,
+          {0x4f95f0a07d9e7568U, 0x56c611aa3e5d7436U, 0xd8ce363c6b1b054aU, 0x7c627a97d6132025U,
+           0x6f9fa23afc354782U}},
+      Row{quad_grid,
+          false,
+          {0x309cc3d185becb2bU, 0x324e359a056ce6e6U, 0x3ec42b4552647ad1U, 0xd69d5c251be6005cU,
+           0x29a9b4caa9d2f393U}},
+      Row{quad_grid,
+          true,
+          {0x4f95f0a07d9e7568U, 0x7103d5cce4ab86d8U, 0xf0159ebbf7bec164U, 0x4bee337f0545554fU,
+           0x6befa9faa7005ef4U}},
+      Row{torus,
+          false,
+          {0x6032e268ce8927d1U, 0x520ab4d010f75cfaU, 0x85bc23588be224c5U, 0x0d007d5e81412c6bU,
+           0x539303f12865ac72U}},
+      Row{torus,
+          true,
+          {0x07bf1948d3fb4b95U, 0xe2ed57de4d401012U, 0x894631ade7b7ceeeU, 0x741b72b415dca4f0U,
+           0xa0260c42ea892ff0U}},
+      Row{icosphere,
+          false,
+          {0xf0df18cad3278fceU, 0x2c8087c71abf2b09U, 0xb87b3771420b50c4U, 0x4ae06c990aa1870aU,
+           0xe666e01eeec970acU}},
+      Row{icosphere,
+          true,
+          {0x7b269c78d5420d0dU, 0xdc2ca89a4071664dU, 0xa86ecbf55562e5acU, 0xc78c169bbe2f4d99U,
+           0x471df6b955af6001U}},
+      Row{fan,
+          false,
+          {0xadb85666c05c5eadU, 0xdcee06f5a54867b1U, 0x542c8d229972c616U, 0x767601ede0f56aa9U,
+           0x316081fecdc42460U}},
+      Row{fan,
+          true,
+          {0x768f77bdaaee5c20U, 0x691c09352576697cU, 0x553f676aa970ce7aU, 0x5dfce34d2764749cU,
+           0x3b44a96518ae2087U}},
+      Row{strip,
+          false,
+          {0xecf742df07964f4aU, 0x2ce1fd93830df665U, 0x3561267d6a49671cU, 0xb5d600de70390819U,
+           0xc5f780fc470fe689U}},
+      Row{strip,
+          true,
+          {0x060080674ebb85d1U, 0xac61fb30811ebffbU, 0x5fcc8bcc37c36029U, 0x1756dcaa344b6500U,
+           0x5905d49c5e1c9b05U}},
+      Row{mobius,
+          false,
+          {0x42eb5add2d44fd41U, 0xa855c4fc9b5ae90eU, 0x6b9a0ce654c66e99U, 0xddceb9266e95ba37U,
+           0xe75ad0e51b36c9e7U}},
+      Row{mobius,
+          true,
+          {0xadb96f96e3bb4914U, 0x820633dcfbb955beU, 0x9793075aa6a08e20U, 0xa497b7436b077595U,
+           0xf63d382d827d790fU}},
+      Row{klein,
+          false,
+          {0x997e9b2921a787f3U, 0x7205197d7f3feefdU, 0xcfb8dcb401c60e64U, 0xe93dc96bf35027e8U,
+           0x3bc8cee8134382fcU}},
+      Row{klein,
+          true,
+          {0x7886ed8f9d096f69U, 0x412bf1f9b7dbb297U, 0xc932e5cb043b4ad5U, 0x6d61cf70da36248bU,
+           0xa669ef060534bd04U}},
+      Row{terrain,
+          false,
+          {0x84fb254bbe44fb13U, 0x08b012a55a3bb1bcU, 0x8e1a5846364460a6U, 0x375de8c21b937b9eU,
+           0xa545938b5080df8fU}},
+      Row{terrain,
+          true,
+          {0x390d045d34ea749bU, 0x56c611aa3e5d7436U, 0x156247735da2e296U, 0x0a04d12c8e9cfad9U,
+           0xcbe32a714510969dU}},
+      Row{gyroid,
+          false,
+          {0xdc144598b3e6b011U, 0x42bbe42312d54b83U, 0xa840ef61c7053ddfU, 0x50988256f7ab69e2U,
+           0x5e1ee2b147a64a6fU}},
+      Row{gyroid,
+          true,
+          {0xb7d477b29081df9bU, 0x6f27f2b97c5354e5U, 0x8bb6048aeba4d996U, 0x7e6cf6ee0968d9c2U,
+           0x87fbd493c6a139f5U}},
+  };
+}();
 
-constexpr std::array kMethods = {ReorderMethod::hilbert, ReorderMethod::morton,
-                                 ReorderMethod::breadth_first, ReorderMethod::vertex_cache,
-                                 ReorderMethod::fronts};
+constexpr std::array kReorderMethods = {ReorderMethod::hilbert, ReorderMethod::morton,
+                                        ReorderMethod::breadth_first, ReorderMethod::vertex_cache,
+                                        ReorderMethod::fronts};
 constexpr std::array kWeights = {NormalWeight::uniform, NormalWeight::area, NormalWeight::angle,
                                  NormalWeight::max};
 
@@ -147,7 +150,7 @@ Soup soup_of(const Row& row) {
   return row.is_shuffled ? shapes::shuffled(*soup, kShuffleSeed) : std::move(*soup);
 }
 
-Connectivity built(const FaceList& faces, BuildStrategy strategy, const Execution& execution) {
+Connectivity build_with(const FaceList& faces, BuildStrategy strategy, const Execution& execution) {
   BuildOptions options;
   options.strategy = strategy;
   Result<BuildOutput> output = build(faces, options, execution);
@@ -155,13 +158,9 @@ Connectivity built(const FaceList& faces, BuildStrategy strategy, const Executio
   return std::move(output->mesh);
 }
 
-Connectivity built(const Soup& soup) {
-  return built(soup.face_list(), BuildStrategy::automatic, Execution::serial());
-}
-
 std::uint64_t reordered(const Connectivity& mesh, const Soup& soup, const Execution& execution) {
   std::vector<std::uint64_t> digests;
-  for (const ReorderMethod method : kMethods) {
+  for (const ReorderMethod method : kReorderMethods) {
     const auto output = reorder(mesh, soup.positions(), method, execution);
     EXPECT_TRUE(output);
     digests.push_back(digest(output->mesh, execution));
@@ -253,7 +252,7 @@ TEST_P(Golden, DigestsComeFromEveryThreadCountGrainAndStrategy) {
       const Execution execution = threads.execution(grain);
       for (const BuildStrategy strategy :
            {BuildStrategy::automatic, BuildStrategy::window, BuildStrategy::partition}) {
-        const Connectivity mesh = built(soup.face_list(), strategy, execution);
+        const Connectivity mesh = build_with(soup.face_list(), strategy, execution);
         EXPECT_EQ(digest(mesh, execution), expected.mesh);
       }
     }
@@ -275,7 +274,7 @@ std::uint64_t built_from(const Soup& soup, BuildStrategy strategy, const Executi
       soup.offsets.empty()
           ? FaceList::triangles<Integer>(view, soup.vertex_count())
           : FaceList::polygons<Integer>(view, soup.offsets.span(), soup.vertex_count());
-  return digest(built(faces, strategy, execution), execution);
+  return digest(build_with(faces, strategy, execution), execution);
 }
 
 TEST_P(Golden, DigestsComeFromEveryIndexFormat) {

@@ -13,14 +13,13 @@
 #include "support/allocations.h"
 #include "support/normal_meshes.h"
 #include "support/random_faces.h"
+#include "support/serial.h"
 #include "support/threads.h"
 
 namespace hedgerow {
 namespace {
 
 using test::Random;
-
-const Execution kSerial = Execution::serial();
 
 struct Normals {
   std::vector<float> faces;
@@ -40,9 +39,9 @@ Normals full_pass(const Connectivity& mesh, Positions positions, const NormalOpt
   Normals normals{std::vector<float>(3 * static_cast<std::size_t>(mesh.face_count()), 7.0F),
                   std::vector<float>(3 * static_cast<std::size_t>(mesh.vertex_count()), 7.0F)};
   Workspace workspace;
-  EXPECT_TRUE(face_normals(mesh, positions, out_of(normals.faces), options, kSerial));
-  EXPECT_TRUE(gather_vertex_normals(mesh, positions, out_of(normals.vertices), options, kSerial,
-                                    workspace));
+  EXPECT_TRUE(face_normals(mesh, positions, out_of(normals.faces), options, test::kSerial));
+  EXPECT_TRUE(gather_vertex_normals(mesh, positions, out_of(normals.vertices), options,
+                                    test::kSerial, workspace));
   return normals;
 }
 
@@ -55,7 +54,7 @@ void update(const Connectivity& mesh, Positions positions, const NormalOptions& 
                                     execution, workspace));
 }
 
-std::vector<Soup> soups() {
+std::vector<Soup> soups_to_move() {
   std::vector<Soup> all;
   all.push_back(test::wavy_grid(40));
   all.push_back(test::wavy_fan(400));
@@ -83,11 +82,11 @@ std::vector<Index> move_some(Soup& soup, Random& random, Index count) {
 
 TEST(DirtyNormals, AreThoseOfAFullPassToTheLastBit) {
   int partial = 0;
-  for (const Soup& original : soups()) {
+  for (const Soup& original : soups_to_move()) {
     for (const bool is_closed : {false, true}) {
       Soup soup = test::copy_of(original);
       Connectivity mesh = test::mesh_of(soup);
-      if (is_closed) mesh = std::move(*close_boundary(mesh, kSerial));
+      if (is_closed) mesh = std::move(*close_boundary(mesh, test::kSerial));
       DirtySet dirty(mesh);
       Random random(static_cast<std::uint64_t>(soup.vertex_count()));
       for (const NormalWeight weight : test::kWeights) {
@@ -100,7 +99,7 @@ TEST(DirtyNormals, AreThoseOfAFullPassToTheLastBit) {
             const auto moved = move_some(soup, random, random.below(soup.vertex_count() / 8 + 2));
             ASSERT_TRUE(dirty.find(mesh, MovedVertices::list(moved)));
             partial += !dirty.is_all() && !moved.empty();
-            update(mesh, soup.positions(), options, dirty, kSerial, normals);
+            update(mesh, soup.positions(), options, dirty, test::kSerial, normals);
             ASSERT_TRUE(normals == full_pass(mesh, soup.positions(), options));
           }
         }
@@ -127,7 +126,7 @@ TEST(DirtyNormals, LeaveAloneWhatHasNoDirectionWhereTheyAreToKeepIt) {
   ASSERT_TRUE(dirty.find(mesh, MovedVertices::list(moved)));
   Workspace workspace;
   const auto stats = update_vertex_normals(mesh, soup.positions(), out_of(normals.vertices),
-                                           options, dirty, kSerial, workspace);
+                                           options, dirty, test::kSerial, workspace);
   ASSERT_TRUE(stats);
   EXPECT_GE(stats->degenerate_count, 1);
   const auto v = static_cast<std::size_t>(stats->first_degenerate);
@@ -159,7 +158,7 @@ TEST(DirtyNormals, AreTheSameBitsForEveryThreadCountAndGrain) {
 std::vector<Index> list(std::span<const Index> ids) { return {ids.begin(), ids.end()}; }
 
 TEST(DirtySets, AreTheFacesAtMovedVerticesAndTheirVertices) {
-  for (const Soup& soup : soups()) {
+  for (const Soup& soup : soups_to_move()) {
     const Connectivity mesh = test::mesh_of(soup);
     if (mesh.vertex_count() < 50) continue;
     DirtySet dirty(mesh);
@@ -239,10 +238,10 @@ TEST(DirtySets, AllocateNothingOnceMade) {
   const std::vector<Index> moved = {100, 101, 102, 700};
   const auto frame = [&] {
     ASSERT_TRUE(dirty.find(mesh, MovedVertices::list(moved)));
-    ASSERT_TRUE(
-        update_face_normals(mesh, soup.positions(), out_of(normals.faces), {}, dirty, kSerial));
+    ASSERT_TRUE(update_face_normals(mesh, soup.positions(), out_of(normals.faces), {}, dirty,
+                                    test::kSerial));
     ASSERT_TRUE(update_vertex_normals(mesh, soup.positions(), out_of(normals.vertices), {}, dirty,
-                                      kSerial, workspace));
+                                      test::kSerial, workspace));
   };
   frame();
   const auto before = test::allocation_count();

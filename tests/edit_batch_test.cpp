@@ -101,13 +101,13 @@ std::set<std::pair<VertexId, VertexId>> near_pairs(const EditMesh& mesh) {
 }
 
 // In order: what stands in the way of none that was done is done, by itself.
-struct Plain {
+struct CollapsedOneByOne {
   std::vector<HalfedgeId> done;
   std::vector<HalfedgeId> rest;
   std::vector<HalfedgeId> refused;
 };
-Plain collapse_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
-  Plain plain;
+CollapsedOneByOne collapse_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
+  CollapsedOneByOne plain;
   const auto pairs = near_pairs(mesh);
   std::vector<std::pair<HalfedgeId, std::pair<VertexId, VertexId>>> possible;
   for (const HalfedgeId h : wanted) {
@@ -133,13 +133,13 @@ Plain collapse_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted)
   }
   return plain;
 }
-Plain split_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
+CollapsedOneByOne split_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
   struct Asked {
     HalfedgeId h;
     HalfedgeId o;
     std::vector<FaceId> triangles;
   };
-  Plain plain;
+  CollapsedOneByOne plain;
   std::vector<Asked> possible;
   for (const HalfedgeId h : wanted) {
     if (!mesh.can_split_edge(h)) {
@@ -169,7 +169,7 @@ Plain split_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
   }
   return plain;
 }
-Plain one_by_one(EditMesh& mesh, Kind kind, const std::vector<HalfedgeId>& wanted) {
+CollapsedOneByOne one_by_one(EditMesh& mesh, Kind kind, const std::vector<HalfedgeId>& wanted) {
   return kind == Kind::collapse ? collapse_one_by_one(mesh, wanted)
                                 : split_one_by_one(mesh, wanted);
 }
@@ -198,7 +198,7 @@ TEST_P(EditBatches, AreTheSameAsOneByOneForEveryThreadCount) {
       std::size_t done = 0;
       for (std::uint64_t round = 0; round < 3; ++round) {
         const std::vector<HalfedgeId> wanted = random_edges(mesh, 10 * seed + round);
-        const Plain plain = one_by_one(copy, GetParam(), wanted);
+        const CollapsedOneByOne plain = one_by_one(copy, GetParam(), wanted);
         const EditBatch batch = do_batch(mesh, GetParam(), wanted, arena.execution(3));
         ASSERT_EQ(batch.done, plain.done) << "seed " << seed;
         ASSERT_EQ(batch.rest, plain.rest) << "seed " << seed;

@@ -7,15 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "hedgerow/validate.h"
+#include "support/edit_mesh.h"
 #include "support/edit_soundness.h"
 #include "support/meshes.h"
 
 namespace hedgerow::test {
 namespace {
 
-EditMesh edit_mesh(const PlainFaces& list) {
-  return std::move(*EditMesh::of(to_connectivity(reference_of(list)), Execution::serial()));
-}
 /// Two triangles on the edge from 1 to 2.
 PlainFaces two_triangles() { return {{{0, 1, 2}, {1, 3, 2}}, 4}; }
 

@@ -12,6 +12,7 @@
 #include "hedgerow/query.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
+#include "support/edit_mesh.h"
 #include "support/edit_soundness.h"
 #include "support/meshes.h"
 #include "support/plain_build.h"
@@ -20,12 +21,6 @@
 namespace hedgerow::test {
 namespace {
 
-EditMesh edit_mesh(const PlainFaces& list) {
-  return std::move(*EditMesh::of(build_plain(list)->mesh, Execution::serial()));
-}
-Positions positions_of(const std::vector<float>& xyz) {
-  return {xyz.data(), static_cast<std::int64_t>(xyz.size() / 3)};
-}
 /// Half of the length of the cross product, summed over faces from `first` on: of triangles.
 double area_from(const EditMesh& mesh, const std::vector<float>& xyz, Index first) {
   const EditView view = mesh.view();

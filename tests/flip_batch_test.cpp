@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hedgerow/edit.h"
+#include "support/edit_mesh.h"
 #include "support/edit_soundness.h"
 #include "support/meshes.h"
 #include "support/threads.h"
@@ -14,12 +15,8 @@
 namespace hedgerow::test {
 namespace {
 
-EditMesh edit_mesh(const PlainFaces& list) {
-  return std::move(*EditMesh::of(to_connectivity(reference_of(list)), Execution::serial()));
-}
-
 // A closed torus of n by n quads, each cut in two triangles.
-PlainFaces torus(std::int64_t n) {
+PlainFaces cut_torus(std::int64_t n) {
   PlainFaces list;
   list.vertex_count = n * n;
   const auto at = [n](std::int64_t i, std::int64_t j) { return i % n * n + j % n; };
@@ -43,13 +40,13 @@ std::vector<HalfedgeId> shuffled_edges(const EditMesh& mesh, std::uint64_t seed)
 }
 
 // In order: what touches a face of a flip before it waits, what cannot be done is refused.
-struct Plain {
+struct FlippedOneByOne {
   std::vector<HalfedgeId> flipped;
   std::vector<HalfedgeId> rest;
   std::vector<HalfedgeId> refused;
 };
-Plain flip_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
-  Plain plain;
+FlippedOneByOne flip_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
+  FlippedOneByOne plain;
   std::vector<HalfedgeId> possible;
   for (const HalfedgeId h : wanted) (mesh.can_flip(h) ? possible : plain.refused).push_back(h);
   std::set<FaceId> touched;
@@ -67,7 +64,7 @@ Plain flip_one_by_one(EditMesh& mesh, const std::vector<HalfedgeId>& wanted) {
 
 void expect_the_same(EditMesh& mesh, EditMesh& copy, const std::vector<HalfedgeId>& wanted,
                      const Execution& execution) {
-  const Plain plain = flip_one_by_one(copy, wanted);
+  const FlippedOneByOne plain = flip_one_by_one(copy, wanted);
   const EditBatch batch = mesh.flip_batch(wanted, execution);
   EXPECT_EQ(batch.done, plain.flipped);
   EXPECT_EQ(batch.refused, plain.refused);
@@ -104,8 +101,8 @@ TEST(FlipBatch, IsTheSameAsOneByOneForEveryThreadCount) {
   for (const int threads : kThreadCounts) {
     Threads arena(threads);
     for (const bool is_recording : {false, true}) {
-      EditMesh mesh = edit_mesh(torus(8));
-      EditMesh copy = edit_mesh(torus(8));
+      EditMesh mesh = edit_mesh(cut_torus(8));
+      EditMesh copy = edit_mesh(cut_torus(8));
       mesh.set_recording(is_recording);
       for (std::uint64_t round = 0; round < 40; ++round) {
         std::vector<HalfedgeId> wanted = shuffled_edges(mesh, round);
@@ -118,8 +115,8 @@ TEST(FlipBatch, IsTheSameAsOneByOneForEveryThreadCount) {
 }
 
 TEST(FlipBatch, IsTakenBackAndDoneAgainAsOneChange) {
-  EditMesh mesh = edit_mesh(torus(6));
-  EditMesh copy = edit_mesh(torus(6));
+  EditMesh mesh = edit_mesh(cut_torus(6));
+  EditMesh copy = edit_mesh(cut_torus(6));
   const EditState before = state_of(mesh);
   const EditBatch batch = mesh.flip_batch(shuffled_edges(mesh, 3), Execution::serial());
   ASSERT_GT(batch.done.size(), 5U);
@@ -131,7 +128,7 @@ TEST(FlipBatch, IsTakenBackAndDoneAgainAsOneChange) {
 }
 
 TEST(FlipBatch, CannotBeTakenBackWithoutARecord) {
-  EditMesh mesh = edit_mesh(torus(4));
+  EditMesh mesh = edit_mesh(cut_torus(4));
   mesh.set_recording(false);
   const Change change = *mesh.flip_batch(shuffled_edges(mesh, 1), Execution::serial()).change;
   EXPECT_EQ(mesh.undo(change).reason, Refusal::other_state);

@@ -10,11 +10,6 @@ namespace {
 
 using io::Format;
 
-struct Case {
-  std::string_view text;
-  std::string_view outcome;
-};
-
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "property list uchar int vertex_indices\n";
 
@@ -76,7 +71,7 @@ TEST(IoPly, LocatesWhatIsWrongInAscii) {
 }
 
 TEST(IoPly, LocatesWhatIsWrongInTheHeader) {
-  const Case cases[] = {
+  const TextCase cases[] = {
       {"", "empty-file@1:1"},
       {"plx\n", "bad-header@1:1"},
       {"ply", "bad-header@1:4"},
@@ -100,7 +95,7 @@ TEST(IoPly, LocatesWhatIsWrongInTheHeader) {
       {"ply\nformat ascii 1.0\nhello\n", "bad-header@3:1"},
       {std::string_view("p\0l\0y\0\n\0", 8), "utf16-text@1:2"},
   };
-  for (const Case& c : cases) EXPECT_EQ(outcome(c.text, Format::ply), c.outcome) << c.text;
+  for (const TextCase& c : cases) EXPECT_EQ(outcome(c.text, Format::ply), c.outcome) << c.text;
 }
 
 TEST(IoPly, RefusesFacesWithoutIntegerIndices) {

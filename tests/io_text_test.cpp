@@ -14,15 +14,10 @@ namespace {
 
 using io::Format;
 
-struct Case {
-  std::string_view text;
-  std::string_view outcome;
-};
-
 const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(IoObj, ReadsWhatTheFormatAllows) {
-  const Case cases[] = {
+  const TextCase cases[] = {
       {"", "ok 0 0 0"},
       {"# nothing\n\n  # else", "ok 0 0 0"},
       {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", "ok 3 1 3"},
@@ -41,11 +36,11 @@ TEST(IoObj, ReadsWhatTheFormatAllows) {
       {"# path c:\\\nv 0 0 0\n", "ok 1 0 0"},
       {"v 1 2 3\nwhatever 4\n", "ok 1 0 0"},
   };
-  for (const Case& c : cases) EXPECT_EQ(outcome(c.text, Format::obj), c.outcome) << c.text;
+  for (const TextCase& c : cases) EXPECT_EQ(outcome(c.text, Format::obj), c.outcome) << c.text;
 }
 
 TEST(IoObj, LocatesWhatIsWrong) {
-  const Case cases[] = {
+  const TextCase cases[] = {
       {"v 0 0\n", "missing-value@1:6"},
       {"v 0 0 # 0\n", "missing-value@1:7"},
       {"v 0 x 0\n", "bad-number@1:5"},
@@ -77,7 +72,7 @@ TEST(IoObj, LocatesWhatIsWrong) {
       {std::string_view("\0v\0 \0", 5), "utf16-text@1:1"},
       {"\x1f\x8b\x08", "compressed-file@0"},
   };
-  for (const Case& c : cases) EXPECT_EQ(outcome(c.text, Format::obj), c.outcome) << c.text;
+  for (const TextCase& c : cases) EXPECT_EQ(outcome(c.text, Format::obj), c.outcome) << c.text;
 }
 
 TEST(IoObj, SaysInOneLineWhatIsWrongAndWhere) {
@@ -164,7 +159,7 @@ TEST(IoObj, DoesNotDependOnTheLocale) {
 }
 
 TEST(IoOff, ReadsWhatTheFormatAllows) {
-  const Case cases[] = {
+  const TextCase cases[] = {
       {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "ok 3 1 3"},
       {"OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", "ok 3 1 3"},
       {"3 1 99\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", "ok 3 1 3"},
@@ -178,11 +173,11 @@ TEST(IoOff, ReadsWhatTheFormatAllows) {
       {"OFF\n2 3 0\n0 0 0\n1 1 1\n0\n1 1\n2 0 1\n", "ok 2 3 3"},
       {"OFF\n0 0 0\n", "ok 0 0 0"},
   };
-  for (const Case& c : cases) EXPECT_EQ(outcome(c.text, Format::off), c.outcome) << c.text;
+  for (const TextCase& c : cases) EXPECT_EQ(outcome(c.text, Format::off), c.outcome) << c.text;
 }
 
 TEST(IoOff, LocatesWhatIsWrong) {
-  const Case cases[] = {
+  const TextCase cases[] = {
       {"", "empty-file@1:1"},
       {"OFF", "unexpected-end@1:4"},
       {"OFF\n3 1\n", "count-too-large@2:1"},
@@ -207,7 +202,7 @@ TEST(IoOff, LocatesWhatIsWrong) {
       {"C4nOFF\n", "unsupported-variant@1:1"},
       {"ply\n", "bad-header@1:1"},
   };
-  for (const Case& c : cases) EXPECT_EQ(outcome(c.text, Format::off), c.outcome) << c.text;
+  for (const TextCase& c : cases) EXPECT_EQ(outcome(c.text, Format::off), c.outcome) << c.text;
 }
 
 std::string binary_off(bool is_big, bool has_colours, std::int32_t index) {

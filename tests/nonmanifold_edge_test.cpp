@@ -12,11 +12,10 @@
 #include "support/meshes.h"
 #include "support/random_faces.h"
 #include "support/same_columns.h"
+#include "support/serial.h"
 
 namespace hedgerow::test {
 namespace {
-
-const Execution kSerial = Execution::serial();
 
 template <class Id>
 std::vector<Index> numbers(std::span<const Id> ids) {
@@ -122,7 +121,7 @@ TEST(NonmanifoldEdges, HaveNoPlaceForHalfedgesWithoutAFace) {
   EXPECT_EQ(edges.error().code, ErrorCode::already_closed);
 }
 
-NonmanifoldEdges two_triangles() {
+NonmanifoldEdges edges_of_two_triangles() {
   const Connectivity mesh = to_connectivity(reference_of({{{0, 1, 2}, {1, 3, 2}}, 4}));
   return std::move(*build_nonmanifold_edges(mesh, build_radial(mesh, kSerial)));
 }
@@ -132,7 +131,7 @@ ErrorCode code_of(const NonmanifoldEdges& edges) {
 }
 
 TEST(NonmanifoldEdges, WithAWrongEntryAreRefusedByName) {
-  NonmanifoldEdges edges = two_triangles();
+  NonmanifoldEdges edges = edges_of_two_triangles();
   edges.face_vertices.values[4] = VertexId(4);
   const auto out_of_range = build_connectivity(edges);
   ASSERT_FALSE(out_of_range);
@@ -140,13 +139,13 @@ TEST(NonmanifoldEdges, WithAWrongEntryAreRefusedByName) {
   EXPECT_EQ(out_of_range.error().element, 4);
   EXPECT_EQ(out_of_range.error().limit, 4);
 
-  edges = two_triangles();
+  edges = edges_of_two_triangles();
   edges.face_vertices.first[1] = 2;
   EXPECT_EQ(code_of(edges), ErrorCode::too_few_corners);
   edges.face_vertices.first[1] = 7;
   EXPECT_EQ(code_of(edges), ErrorCode::bad_face_offsets);
 
-  edges = two_triangles();
+  edges = edges_of_two_triangles();
   edges.uses.values[0].corner = HalfedgeId(6);
   EXPECT_EQ(code_of(edges), ErrorCode::index_out_of_range);
   edges.uses.values[0].corner = HalfedgeId();
@@ -158,10 +157,10 @@ TEST(NonmanifoldEdges, WithAWrongEntryAreRefusedByName) {
   EXPECT_EQ(twice.error().element, 0);
   EXPECT_EQ(twice.error().value, 0);
 
-  edges = two_triangles();
+  edges = edges_of_two_triangles();
   edges.uses.values.truncate(5);
   EXPECT_EQ(code_of(edges), ErrorCode::count_mismatch);
-  edges = two_triangles();
+  edges = edges_of_two_triangles();
   std::swap(edges.uses.first[1], edges.uses.first[2]);
   EXPECT_EQ(code_of(edges), ErrorCode::count_mismatch);
 }
@@ -170,14 +169,14 @@ TEST(NonmanifoldEdges, WithAWrongEntryAreRefusedByName) {
 TEST(NonmanifoldEdges, WithAJoinThatIsNotAnsweredAreRefusedByName) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (Index joined = -1; joined < 6; ++joined) {
-      NonmanifoldEdges edges = two_triangles();
+      NonmanifoldEdges edges = edges_of_two_triangles();
       if (edges.uses.values[i].joined.value == joined) continue;
       edges.uses.values[i].joined = HalfedgeId(joined);
       EXPECT_EQ(code_of(edges), ErrorCode::inconsistent_table) << i << ' ' << joined;
     }
   }
   // Both ways, but along different edges.
-  NonmanifoldEdges edges = two_triangles();
+  NonmanifoldEdges edges = edges_of_two_triangles();
   for (EdgeUse& use : edges.uses.values) {
     if (use.corner.value == 0) use.joined = HalfedgeId(3);
     if (use.corner.value == 3) use.joined = HalfedgeId(0);

@@ -15,7 +15,7 @@ namespace {
 using test::Answer;
 using test::Method;
 
-constexpr Method kMethods[] = {Method::face, Method::gather, Method::scatter};
+constexpr Method kNormalMethods[] = {Method::face, Method::gather, Method::scatter};
 
 Soup scaled_by(const Soup& soup, float factor) {
   Soup copy = test::copy_of(soup);
@@ -23,7 +23,7 @@ Soup scaled_by(const Soup& soup, float factor) {
   return copy;
 }
 
-std::vector<Soup> soups() {
+std::vector<Soup> soups_to_scale() {
   std::vector<Soup> all;
   all.push_back(test::sphere(3));
   all.push_back(test::cube_of_quads());
@@ -32,7 +32,7 @@ std::vector<Soup> soups() {
 }
 
 TEST(NormalRange, HoldsFromTinyToHugeCoordinates) {
-  for (const Soup& soup : soups()) {
+  for (const Soup& soup : soups_to_scale()) {
     const Connectivity mesh = test::mesh_of(soup);
     for (const float factor : {1e-36f, 1e-30f, 1e-20f, 1e-10f, 1e-5f, 1e5f, 1e15f, 1e30f, 1e37f}) {
       const Soup other = scaled_by(soup, factor);
@@ -89,7 +89,7 @@ TEST(NormalRange, LeavesOutFacesWithACoordinateThatIsNotFinite) {
     for (const NormalWeight weight : test::kWeights) {
       NormalOptions options;
       options.weight = weight;
-      for (const Method method : kMethods) {
+      for (const Method method : kNormalMethods) {
         const Answer before = test::run(method, mesh, good.face_list(), good.positions(), options,
                                         Execution::serial());
         const Answer after = test::run(method, mesh, soup.face_list(), soup.positions(), options,
@@ -117,7 +117,7 @@ TEST(NormalRange, LeavesTheControlBitsAloneAndBearsFlushingToZero) {
   const unsigned found = _mm_getcsr();
   constexpr unsigned kFlags = 0x3f;
   _mm_setcsr(found | 0x8040);  // flush to zero, denormals are zero
-  for (const Method method : kMethods) {
+  for (const Method method : kNormalMethods) {
     const Answer answer =
         test::run(method, mesh, soup.face_list(), soup.positions(), {}, Execution::serial());
     EXPECT_EQ(_mm_getcsr() & ~kFlags, (found | 0x8040) & ~kFlags);

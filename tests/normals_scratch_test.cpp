@@ -9,12 +9,12 @@
 namespace hedgerow {
 namespace {
 
-struct Case {
+struct NormalCase {
   bool is_gather;
   NormalWeight weight;
 };
 
-Result<NormalStats> call(const Case& c, const Soup& soup, const Connectivity& mesh,
+Result<NormalStats> call(const NormalCase& c, const Soup& soup, const Connectivity& mesh,
                          std::vector<float>& out, const Execution& execution,
                          Workspace& workspace) {
   NormalOptions options;
@@ -26,7 +26,7 @@ Result<NormalStats> call(const Case& c, const Soup& soup, const Connectivity& me
                                       workspace);
 }
 
-std::size_t needed(const Case& c, const Soup& soup, const Connectivity& mesh,
+std::size_t needed(const NormalCase& c, const Soup& soup, const Connectivity& mesh,
                    const Execution& execution) {
   NormalOptions options;
   options.weight = c.weight;
@@ -34,8 +34,8 @@ std::size_t needed(const Case& c, const Soup& soup, const Connectivity& mesh,
                      : scatter_vertex_normals_scratch_bytes(soup.face_list(), options, execution);
 }
 
-std::vector<Case> all_cases() {
-  std::vector<Case> cases;
+std::vector<NormalCase> all_cases() {
+  std::vector<NormalCase> cases;
   for (const bool is_gather : {true, false}) {
     for (const NormalWeight weight : test::kWeights) cases.push_back({is_gather, weight});
   }
@@ -50,7 +50,7 @@ TEST(NormalScratch, OfTheSizeAskedForIsEnoughAndOneByteLessIsNot) {
   soups.push_back(test::wavy_fan(300));
   for (const Soup& soup : soups) {
     const Connectivity mesh = test::mesh_of(soup);
-    for (const Case& c : all_cases()) {
+    for (const NormalCase& c : all_cases()) {
       for (const Execution& execution : executions.all()) {
         const std::size_t bytes = needed(c, soup, mesh, execution);
         std::vector<float> out(soup.xyz.size(), 5.0f);
@@ -77,7 +77,7 @@ TEST(NormalScratch, OfAnySizeGivesTheAnswerOrTheErrorAndNothingElse) {
   const Soup soup = test::random_soup(6, 40, 90, 5);
   const Connectivity mesh = test::mesh_of(soup);
   const Execution execution = Execution::serial().with_grain(8);
-  for (const Case& c : all_cases()) {
+  for (const NormalCase& c : all_cases()) {
     const std::size_t bytes = needed(c, soup, mesh, execution);
     Workspace growing;
     std::vector<float> expected(soup.xyz.size());
@@ -103,7 +103,7 @@ TEST(NormalScratch, IsNotAllocatedASecondTime) {
     const Connectivity mesh = test::mesh_of(soup);
     std::vector<float> out(static_cast<std::size_t>(soup.face_count()) * 3 + soup.xyz.size());
     const NormalsOut to_faces{out.data(), soup.face_count()};
-    for (const Case& c : all_cases()) {
+    for (const NormalCase& c : all_cases()) {
       Workspace workspace;
       const int at_first = test::allocation_count();
       ASSERT_TRUE(call(c, soup, mesh, out, Execution::serial(), workspace));

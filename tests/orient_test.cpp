@@ -9,13 +9,12 @@
 
 #include "hedgerow/shapes.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 
 namespace hedgerow::test {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Orientation orientation_of(const Connectivity& mesh) {
   return find_orientation(mesh, build_radial(mesh, Execution::serial()));

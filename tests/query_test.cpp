@@ -10,17 +10,13 @@
 #include "hedgerow/build.h"
 #include "hedgerow/shapes.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 #include "support/threads.h"
 
 namespace hedgerow::test {
 namespace {
-
-using Numbers = std::vector<Index>;
-
-Numbers to_vector(const Buffer<Index>& values) { return {values.begin(), values.end()}; }
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 TEST(Query, CountsTheSidesOfAFaceFromAnyHalfedge) {
   const Connectivity mesh = to_connectivity(reference_of(mixed_row()));

@@ -122,53 +122,51 @@ TEST(Radial, RefusesPositionsThatAreTooFew) {
 
 // The angle of a face from its definition: the direction at a right angle to the edge, as a pair
 // (quadrant, exact fraction), in 64-bit integers. For triangles with small integer coordinates.
-struct Vector {
+struct Int3 {
   std::int64_t x = 0, y = 0, z = 0;
-  friend Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vector operator*(std::int64_t s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-  friend bool operator==(Vector, Vector) = default;
+  friend Int3 operator-(Int3 a, Int3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Int3 operator*(std::int64_t s, Int3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend bool operator==(Int3, Int3) = default;
 };
-Vector cross_of(Vector a, Vector b) {
+Int3 cross_of(Int3 a, Int3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-std::int64_t dot_of(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+std::int64_t dot_of(Int3 a, Int3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-Vector point(const Points& points, Index v) {
+Int3 point(const Points& points, Index v) {
   const auto i = static_cast<std::size_t>(3 * v);
   return {std::int64_t(points[i]), std::int64_t(points[i + 1]), std::int64_t(points[i + 2])};
 }
 
 struct Page {
   Index halfedge;
-  Vector out;  ///< the apex less its foot on the edge, times the square of the edge's length
+  Int3 out;  ///< the apex less its foot on the edge, times the square of the edge's length
 };
 
 // Cyclic order by angles in long double, where equal directions are told apart exactly.
 std::vector<Index> brute_order(const ReferenceMesh& mesh, const Points& points,
                                std::pair<Index, Index> ends, std::vector<Index> halfedges) {
-  const Vector a = point(points, ends.first);
-  const Vector axis = a - point(points, ends.second);  // towards the viewer
+  const Int3 a = point(points, ends.first);
+  const Int3 axis = a - point(points, ends.second);  // towards the viewer
   std::vector<Page> pages_round;
   std::vector<Index> order;
   for (const Index h : halfedges) {
     const Index apex =
         mesh.origin[static_cast<std::size_t>(mesh.prev[static_cast<std::size_t>(h)])];
-    const Vector w = point(points, apex) - a;
-    const Vector out = dot_of(axis, axis) * w - dot_of(axis, w) * axis;
-    if (out == Vector{}) {
+    const Int3 w = point(points, apex) - a;
+    const Int3 out = dot_of(axis, axis) * w - dot_of(axis, w) * axis;
+    if (out == Int3{}) {
       order.push_back(h);
     } else {
       pages_round.push_back({h, out});
     }
   }
   if (pages_round.empty()) return order;
-  const Vector start = pages_round[0].out;
-  const Vector side = cross_of(axis, start);
+  const Int3 start = pages_round[0].out;
+  const Int3 side = cross_of(axis, start);
   const auto length = std::sqrt(static_cast<long double>(dot_of(axis, axis)));
-  const auto is_same = [](Vector u, Vector v) {
-    return cross_of(u, v) == Vector{} && dot_of(u, v) > 0;
-  };
-  const auto angle = [&](Vector u) {
+  const auto is_same = [](Int3 u, Int3 v) { return cross_of(u, v) == Int3{} && dot_of(u, v) > 0; };
+  const auto angle = [&](Int3 u) {
     if (is_same(u, start)) return 0.0L;
     const auto turned = std::atan2(static_cast<long double>(dot_of(u, side)) / length,
                                    static_cast<long double>(dot_of(u, start)));

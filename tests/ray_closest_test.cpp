@@ -22,12 +22,6 @@ using ray::Scene;
 using ray::Vec3;
 using test::RayMesh;
 
-Result<Scene> build(const RayMesh& subject, const ray::SceneOptions& options = {}) {
-  const auto device = ray::Device::create();
-  return Scene::build(*device, subject.mesh, PaddedPositions::of(subject.soup.xyz), options,
-                      Execution::serial());
-}
-
 std::array<double, 3> wide(const float* xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
 double slow_distance(const Soup& soup, const std::vector<test::FaceTriangle>& triangles,
@@ -58,7 +52,7 @@ double distance_to(const RayMesh& subject, const ClosestPoint& closest, const Ve
 TEST(RayClosestPoint, IsAsCloseAsTheClosestOfAllTriangles) {
   for (const RayMesh& subject : test::ray_meshes()) {
     const auto triangles = test::triangles_of(subject.soup);
-    const auto scene = build(subject);
+    const auto scene = scene_of(subject);
     ASSERT_TRUE(scene);
     for (const Vec3& from : test::random_points(subject.soup, 1000, 21)) {
       const ClosestPoint closest = scene->closest_point(from);
@@ -81,8 +75,8 @@ TEST(RayClosestPoint, IsAsCloseAsTheClosestOfAllTriangles) {
 
 TEST(RayClosestPoint, IsTheSameInEveryTree) {
   for (const RayMesh& subject : test::ray_meshes()) {
-    const auto still = build(subject);
-    const auto moving = build(subject, {.motion = Motion::moving, .piece_faces = 64});
+    const auto still = scene_of(subject);
+    const auto moving = scene_of(subject, {.motion = Motion::moving, .piece_faces = 64});
     ASSERT_TRUE(still && moving);
     std::vector<Vec3> points = test::random_points(subject.soup, 200, 22);
     // At a vertex, all faces round it are equally close.
@@ -103,7 +97,7 @@ TEST(RayClosestPoint, IsTheSameInEveryTree) {
 
 TEST(RayClosestPoint, NamesTheVertexAtAVertexAndTheEdgeOnAnEdge) {
   const RayMesh subject("grid", std::move(test::ray_meshes()[2].soup));
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   const TriangleView view = subject.mesh.triangles();
   for (Index v = 0; v < subject.soup.vertex_count(); ++v) {
@@ -123,7 +117,7 @@ TEST(RayClosestPoint, TakesADiagonalForTheInside) {
   soup.corners = Buffer<Index>::copy_of(std::vector<Index>{0, 1, 2, 3, 4});
   soup.offsets = Buffer<Index>::copy_of(std::vector<Index>{0, 5});
   const RayMesh subject("pentagon", std::move(soup));
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   int faces = 0;
   for (float x = 0.25F; x < 2; x += 0.25F) {
@@ -151,7 +145,7 @@ TEST(RayClosestPoint, TakesTheDiagonalOfAQuadForTheInside) {
   soup.corners = Buffer<Index>::copy_of(std::vector<Index>{0, 1, 2, 3});
   soup.offsets = Buffer<Index>::copy_of(std::vector<Index>{0, 4});
   const RayMesh subject("quad", std::move(soup));
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->closest_point({0.5F, 0.5F, 2}).feature, Feature::face);
   for (Index k = 0; k < 4; ++k) {
@@ -165,7 +159,7 @@ TEST(RayClosestPoint, TakesTheDiagonalOfAQuadForTheInside) {
 
 TEST(RayClosestPoint, StaysWithinTheRadius) {
   const RayMesh subject("icosphere", std::move(test::ray_meshes()[0].soup));
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   const auto triangles = test::triangles_of(subject.soup);
   for (const Vec3& from : test::random_points(subject.soup, 300, 23)) {
@@ -178,7 +172,7 @@ TEST(RayClosestPoint, StaysWithinTheRadius) {
 
 TEST(RayClosestPoint, IsNoneFromAPointThatIsNotFinite) {
   const RayMesh subject("icosphere", std::move(test::ray_meshes()[0].soup));
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {

@@ -24,12 +24,6 @@ using test::RayMesh;
 constexpr int kRays = 2000;
 constexpr double kTolerance = 1e-4;  // of a ray as long as the mesh, in float
 
-Scene scene_of(const RayMesh& subject, const ray::SceneOptions& options = {}) {
-  const auto device = ray::Device::create();
-  return *Scene::build(*device, subject.mesh, PaddedPositions::of(subject.soup.xyz), options,
-                       Execution::serial());
-}
-
 FaceId face_at(const Connectivity& mesh, const SurfacePoint& point) {
   return mesh.visit([&](const auto& view) { return face_of(view, point); });
 }
@@ -67,7 +61,7 @@ class RayQuery : public ::testing::TestWithParam<ray::SceneOptions> {};
 
 TEST_P(RayQuery, MeetsTheFaceThatEveryTriangleTriedByItselfMeets) {
   for (const RayMesh& subject : test::ray_meshes()) {
-    const Scene scene = scene_of(subject, GetParam());
+    const Scene scene = *scene_of(subject, GetParam());
     const auto triangles = test::triangles_of(subject.soup);
     int misses = 0;
     for (const Ray& ray : test::random_rays(subject.soup, kRays, 1)) {
@@ -87,7 +81,7 @@ TEST_P(RayQuery, MeetsTheFaceThatEveryTriangleTriedByItselfMeets) {
 
 TEST_P(RayQuery, TracesEightRaysAsItTracesOne) {
   for (const RayMesh& subject : test::ray_meshes()) {
-    const Scene scene = scene_of(subject, GetParam());
+    const Scene scene = *scene_of(subject, GetParam());
     const auto triangles = test::triangles_of(subject.soup);
     const std::vector<Ray> rays = test::random_rays(subject.soup, 803, 2);
     for (std::size_t begin = 0; begin < rays.size(); begin += 8) {
@@ -124,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(RayQueryRange, KeepsToNearAndFar) {
   const RayMesh subject("icosphere", std::move(test::ray_meshes().front().soup));
-  const Scene scene = scene_of(subject);
+  const Scene scene = *scene_of(subject);
   Ray ray{.origin = {-3, 0.1F, 0.2F}, .direction = {1, 0, 0}};
   const Hit first = scene.intersect(ray);
   ASSERT_TRUE(first.valid());
@@ -138,7 +132,7 @@ TEST(RayQueryRange, KeepsToNearAndFar) {
 
 TEST(RayQueryRange, MeetsNothingWithANan) {
   const RayMesh subject("icosphere", std::move(test::ray_meshes().front().soup));
-  const Scene scene = scene_of(subject);
+  const Scene scene = *scene_of(subject);
   const Ray good{.origin = {-3, 0.1F, 0.2F}, .direction = {1, 0, 0}};
   const float nan = std::numeric_limits<float>::quiet_NaN();
   ray::RayPacket packet;
@@ -159,7 +153,7 @@ TEST(RayQueryRange, MeetsNothingWithANan) {
 
 TEST(RayQueryRange, FindsTheSameHitsWhateverItMayExpect) {
   const RayMesh subject("icosphere", std::move(test::ray_meshes().front().soup));
-  const Scene scene = scene_of(subject);
+  const Scene scene = *scene_of(subject);
   for (const Ray& ray : test::random_rays(subject.soup, 500, 3)) {
     const Hit coherent = scene.intersect(ray, Coherence::coherent);
     const Hit incoherent = scene.intersect(ray, Coherence::incoherent);

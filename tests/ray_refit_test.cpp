@@ -24,7 +24,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 RayMesh ball() { return {"icosphere", *shapes::icosphere(4)}; }
 
-Result<Scene> build(const RayMesh& subject, Index piece_faces) {
+Result<Scene> moving_scene(const RayMesh& subject, Index piece_faces) {
   return Scene::build(*ray::Device::create(), subject.mesh, PaddedPositions::of(subject.soup.xyz),
                       {.motion = Motion::moving, .piece_faces = piece_faces}, Execution::serial());
 }
@@ -57,7 +57,7 @@ void expect_the_slow_hits(const Scene& scene, const Soup& soup, int at_least = 6
 TEST(RayRefit, LosesNoFaceButThoseOfAVertexThatIsNotFinite) {
   for (const Index piece_faces : {0, 1000, 100}) {
     RayMesh subject = ball();
-    auto scene = build(subject, piece_faces);
+    auto scene = moving_scene(subject, piece_faces);
     ASSERT_TRUE(scene);
     const Buffer<float> rest = Buffer<float>::copy_of(subject.soup.xyz.span());
     for (const float bad : {kNan, kInfinity, -1.9e18F}) {
@@ -79,7 +79,7 @@ TEST(RayRefit, FindsFacesThatWereNotFiniteWhenTheSceneWasMade) {
   RayMesh subject = ball();
   const Buffer<float> rest = Buffer<float>::copy_of(subject.soup.xyz.span());
   std::ranges::fill(subject.soup.xyz, kNan);
-  auto scene = build(subject, 500);
+  auto scene = moving_scene(subject, 500);
   ASSERT_TRUE(scene);
   expect_the_slow_hits(*scene, subject.soup, 0);
   std::ranges::copy(rest, subject.soup.xyz.begin());
@@ -90,7 +90,7 @@ TEST(RayRefit, FindsFacesThatWereNotFiniteWhenTheSceneWasMade) {
 // The piece of a vertex that flies off, and then of one beside it while the first is still away.
 TEST(RayRefit, RemembersWhatIsMissingFromAPieceWhenOtherVerticesMove) {
   RayMesh subject = ball();
-  auto scene = build(subject, 500);
+  auto scene = moving_scene(subject, 500);
   ASSERT_TRUE(scene);
   DirtySet dirty(subject.mesh);
   const auto follow = [&](Index v, std::int64_t pieces) {

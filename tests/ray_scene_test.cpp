@@ -27,13 +27,6 @@ using test::RayMesh;
 
 RayMesh sphere(int level = 4) { return {"icosphere", *shapes::icosphere(level)}; }
 
-Result<Scene> build(const RayMesh& subject, const SceneOptions& options = {},
-                    const Execution& execution = Execution::serial()) {
-  const auto device = Device::create();
-  return Scene::build(*device, subject.mesh, PaddedPositions::of(subject.soup.xyz), options,
-                      execution);
-}
-
 float height(const Scene& scene, float x, float y) {
   const ray::Hit hit = scene.intersect(Ray{.origin = {x, y, 100}, .direction = {0, 0, -1}});
   return hit.valid() ? 100 - hit.t : -100;
@@ -42,7 +35,7 @@ float height(const Scene& scene, float x, float y) {
 TEST(RayScene, CopiesNothingOfTrianglesAndOfQuads) {
   if (sizeof(Index) != 4) GTEST_SKIP() << "Embree wants 32-bit indices: wider ones are copied";
   for (const RayMesh& subject : test::ray_meshes()) {
-    const auto scene = build(subject);
+    const auto scene = scene_of(subject);
     ASSERT_TRUE(scene);
     if (subject.name == "mixed") {
       EXPECT_EQ(scene->stats().cut_face_count, 3 * 12);
@@ -140,11 +133,11 @@ TEST(RayScene, IsEmptyWithoutFaces) {
 
 TEST(RayScene, TakesTheClosedFormOfAMesh) {
   RayMesh subject("grid", *shapes::grid(10, 10));
-  const auto open = build(subject);
+  const auto open = scene_of(subject);
   auto closed = close_boundary(subject.mesh, Execution::serial());
   ASSERT_TRUE(closed);
   subject.mesh = std::move(*closed);
-  const auto scene = build(subject);
+  const auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   for (const Ray& ray : test::random_rays(subject.soup, 200, 5)) {
     EXPECT_EQ(scene->intersect(ray).primitive, open->intersect(ray).primitive);
@@ -165,8 +158,8 @@ std::vector<Index> lift(Soup& soup, float x, float y, float radius, float by) {
 
 TEST(RayScene, FollowsWhatMovedAndRefitsNoOtherPiece) {
   RayMesh subject("grid", *shapes::grid(100, 100));
-  auto pieces = build(subject, {.motion = Motion::moving, .piece_faces = 500});
-  auto whole = build(subject, {.motion = Motion::moving});
+  auto pieces = scene_of(subject, {.motion = Motion::moving, .piece_faces = 500});
+  auto whole = scene_of(subject, {.motion = Motion::moving});
   ASSERT_TRUE(pieces && whole);
   EXPECT_EQ(pieces->stats().piece_count, 40);
   EXPECT_EQ(whole->stats().piece_count, 1);
@@ -179,7 +172,7 @@ TEST(RayScene, FollowsWhatMovedAndRefitsNoOtherPiece) {
     ASSERT_TRUE(whole->refit(dirty, Execution::serial()));
     EXPECT_GT(pieces->refitted_pieces(), 0);
     EXPECT_LT(pieces->refitted_pieces(), 8);
-    const auto fresh = build(subject);
+    const auto fresh = scene_of(subject);
     for (const Ray& ray : test::random_rays(subject.soup, 300, 7)) {
       const ray::Hit expected = fresh->intersect(ray);
       for (const Scene* scene : {&*pieces, &*whole}) {
@@ -201,7 +194,7 @@ TEST(RayScene, FollowsWhatMovedAndRefitsNoOtherPiece) {
 
 TEST(RayScene, GoesOverToPositionsElsewhere) {
   RayMesh subject("grid", *shapes::grid(20, 20));
-  auto scene = build(subject, {.motion = Motion::moving, .piece_faces = 100});
+  auto scene = scene_of(subject, {.motion = Motion::moving, .piece_faces = 100});
   ASSERT_TRUE(scene);
   Buffer<float> other = Buffer<float>::copy_of(subject.soup.xyz.span());
   for (std::size_t i = 2; i < other.size(); i += 3) other[i] = 42;
@@ -248,7 +241,7 @@ TEST(RayScene, RefitsWithoutBuildingAndAllocatesNothingOfItsOwn) {
 
 TEST(RayScene, BuildsAStillSceneAnewWhenItMoves) {
   RayMesh subject = sphere(4);
-  auto scene = build(subject);
+  auto scene = scene_of(subject);
   ASSERT_TRUE(scene);
   for (float& coordinate : subject.soup.xyz) coordinate *= 2;
   ASSERT_TRUE(scene->refit(Execution::serial()));
@@ -259,7 +252,7 @@ TEST(RayScene, BuildsAStillSceneAnewWhenItMoves) {
 TEST(RayScene, UsesTheCallingThreadAloneWhenToldSo) {
   const RayMesh subject = sphere(6);
   const int before = test::worker_entries();
-  auto scene = build(subject, {.motion = Motion::moving});
+  auto scene = scene_of(subject, {.motion = Motion::moving});
   ASSERT_TRUE(scene);
   ASSERT_TRUE(scene->refit(Execution::serial()));
   const auto loop = [](void*, Index count, Index, void (*body)(void*, Index, Index), void* user) {
@@ -271,11 +264,11 @@ TEST(RayScene, UsesTheCallingThreadAloneWhenToldSo) {
 
 TEST(RayScene, MeetsTheSameAtTheSameDistanceWhateverTheThreads) {
   const RayMesh subject("gyroid", *shapes::gyroid(24));
-  const auto serial = build(subject);
+  const auto serial = scene_of(subject);
   ASSERT_TRUE(serial);
   for (const int count : test::kThreadCounts) {
     test::Threads threads(count);
-    const auto scene = build(subject, {}, threads.execution());
+    const auto scene = scene_of(subject, {}, threads.execution());
     ASSERT_TRUE(scene);
     for (const Ray& ray : test::random_rays(subject.soup, 500, 11)) {
       EXPECT_EQ(scene->intersect(ray).t, serial->intersect(ray).t);

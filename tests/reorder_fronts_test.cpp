@@ -14,41 +14,13 @@
 #include "hedgerow/reorder.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
+#include "support/plain_build.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
+#include "support/reorder_cases.h"
 
 namespace hedgerow::test {
 namespace {
-
-std::vector<float> random_positions(Index count, Random& random) {
-  std::vector<float> xyz;
-  for (Index i = 0; i < 3 * count; ++i) {
-    xyz.push_back(static_cast<float>(random.below(64)) / 8 - 4);
-    if (random.one_in(60)) xyz.back() = std::numeric_limits<float>::quiet_NaN();
-    if (random.one_in(60)) xyz.back() = std::numeric_limits<float>::infinity();
-  }
-  return xyz;
-}
-
-Connectivity built(const Soup& soup) {
-  Result<BuildOutput> output = build(soup.face_list(), {}, Execution::serial());
-  EXPECT_TRUE(output);
-  return std::move(output->mesh);
-}
-
-std::vector<std::vector<Index>> faces_of(const Connectivity& mesh) {
-  return mesh.visit([](const auto& view) {
-    std::vector<std::vector<Index>> faces;
-    for (Index f = 0; f < view.face_count(); ++f) {
-      const Index first = view.first(FaceId(f)).value;
-      faces.emplace_back();
-      for (Index k = 0; k < view.degree(FaceId(f)); ++k) {
-        faces.back().push_back(view.origin[HalfedgeId(first + k)].value);
-      }
-    }
-    return faces;
-  });
-}
 
 // Random meshes: polygons, boundaries, bowties, bad edges, isolated vertices.
 class FrontsOfRandomMeshes : public ::testing::TestWithParam<std::uint64_t> {

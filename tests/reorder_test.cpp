@@ -18,8 +18,11 @@
 #include "hedgerow/normals.h"
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
+#include "support/numbers.h"
+#include "support/plain_build.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
+#include "support/reorder_cases.h"
 #include "support/threads.h"
 
 namespace hedgerow::test {
@@ -29,32 +32,12 @@ constexpr std::array kMethods = {ReorderMethod::hilbert, ReorderMethod::morton,
                                  ReorderMethod::breadth_first, ReorderMethod::vertex_cache,
                                  ReorderMethod::fronts};
 
-std::vector<Index> to_vector(std::span<const Index> values) {
-  return {values.begin(), values.end()};
-}
-
 bool is_permutation_of(std::span<const Index> values, Index count) {
   std::vector<Index> sorted = to_vector(values);
   std::sort(sorted.begin(), sorted.end());
   std::vector<Index> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), Index{0});
   return sorted == all;
-}
-
-std::vector<float> random_positions(Index count, Random& random) {
-  std::vector<float> xyz;
-  for (Index i = 0; i < 3 * count; ++i) {
-    xyz.push_back(static_cast<float>(random.below(64)) / 8 - 4);
-    if (random.one_in(60)) xyz.back() = std::numeric_limits<float>::quiet_NaN();
-    if (random.one_in(60)) xyz.back() = std::numeric_limits<float>::infinity();
-  }
-  return xyz;
-}
-
-Connectivity built(const Soup& soup) {
-  Result<BuildOutput> output = build(soup.face_list(), {}, Execution::serial());
-  EXPECT_TRUE(output);
-  return std::move(output->mesh);
 }
 
 // Every relation of the old mesh, found again under the new numbers.
@@ -93,25 +76,11 @@ void expect_same_mesh(const Connectivity& old_mesh, const ReorderOutput& output)
   });
 }
 
-void expect_columns(const Connectivity& mesh, const ReferenceMesh& expected) {
+void expect_stored_columns(const Connectivity& mesh, const ReferenceMesh& expected) {
   EXPECT_EQ(to_vector(mesh.origin()), expected.origin);
   EXPECT_EQ(to_vector(mesh.opposite()), expected.opposite);
   EXPECT_EQ(to_vector(mesh.outgoing()), expected.outgoing);
   EXPECT_EQ(std::vector<FanStart>(mesh.fans().begin(), mesh.fans().end()), expected.fans);
-}
-
-std::vector<std::vector<Index>> faces_of(const Connectivity& mesh) {
-  return mesh.visit([](const auto& view) {
-    std::vector<std::vector<Index>> faces;
-    for (Index f = 0; f < view.face_count(); ++f) {
-      const Index first = view.first(FaceId(f)).value;
-      faces.emplace_back();
-      for (Index k = 0; k < view.degree(FaceId(f)); ++k) {
-        faces.back().push_back(view.origin[HalfedgeId(first + k)].value);
-      }
-    }
-    return faces;
-  });
 }
 
 class EveryMethod : public ::testing::TestWithParam<ReorderMethod> {};
@@ -134,7 +103,8 @@ TEST_P(EveryMethod, GivesTheSameMeshAsTheOracleBuilds) {
         reorder(mesh, {xyz.data(), mesh.vertex_count()}, GetParam(), Execution::serial());
     ASSERT_TRUE(output);
     ASSERT_NO_FATAL_FAILURE(expect_same_mesh(mesh, *output));
-    expect_columns(output->mesh, reference_mesh(faces_of(output->mesh), mesh.vertex_count()));
+    expect_stored_columns(output->mesh,
+                          reference_mesh(faces_of(output->mesh), mesh.vertex_count()));
     EXPECT_TRUE(validate(output->mesh, Execution::serial()).empty());
     EXPECT_EQ(output->mesh.is_triangle_mesh(), mesh.is_triangle_mesh());
     if (HasFailure()) return;

@@ -17,14 +17,13 @@
 #include "support/random_faces.h"
 #include "support/same_answers.h"
 #include "support/same_columns.h"
+#include "support/serial.h"
 
 namespace hedgerow::test {
 namespace {
 
-const Execution kSerial = Execution::serial();
-
 /// What the tests below ask of a representation.
-struct Corners {
+struct CornerTables {
   using View = CornerTableView;
   static constexpr bool kTrianglesOnly = true;
   static auto make(const Connectivity& mesh) { return build_corner_table(mesh, kSerial); }
@@ -61,7 +60,7 @@ struct Split {
 
 template <class Representation>
 class Represent : public ::testing::Test {};
-using All = ::testing::Types<Corners, Directed, Doubly, Split>;
+using All = ::testing::Types<CornerTables, Directed, Doubly, Split>;
 TYPED_TEST_SUITE(Represent, All);
 
 TYPED_TEST(Represent, ComesBackToTheLastByteAndAnswersAsTheReferenceMesh) {
@@ -148,18 +147,10 @@ TEST(CornerTables, RefuseADanglingEdge) {
   EXPECT_EQ(table.error().code, ErrorCode::not_canonical);
 }
 
-// The worked table: origin, opposite, face, next, prev; e18 .. e23 are boundary half-edges.
-constexpr Index kTable[24][5] = {
-    {0, 18, 0, 1, 2},   {2, 11, 0, 2, 0},   {3, 3, 0, 0, 1},     {0, 2, 1, 4, 5},
-    {3, 6, 1, 5, 3},    {1, 19, 1, 3, 4},   {1, 4, 2, 7, 8},     {3, 17, 2, 8, 6},
-    {4, 20, 2, 6, 7},   {2, 21, 3, 10, 11}, {5, 12, 3, 11, 9},   {3, 1, 3, 9, 10},
-    {3, 10, 4, 13, 14}, {5, 22, 4, 14, 12}, {6, 15, 4, 12, 13},  {3, 14, 5, 16, 17},
-    {6, 23, 5, 17, 15}, {4, 7, 5, 15, 16},  {2, 0, -1, 19, 21},  {0, 5, -1, 20, 18},
-    {1, 8, -1, 23, 19}, {5, 9, -1, 18, 22}, {6, 13, -1, 21, 23}, {4, 16, -1, 22, 20}};
 constexpr Index kVertexHalfedge[7] = {0, 5, 1, 2, 8, 10, 14};
 
 DcelHalfedge worked_record(std::size_t r) {
-  const auto& row = kTable[r];
+  const auto& row = kHexagonTable[r];
   return {VertexId(row[0]), HalfedgeId(row[1]), FaceId(row[2]), HalfedgeId(row[3]),
           HalfedgeId(row[4])};
 }
@@ -181,8 +172,8 @@ TEST(Dcels, OfTheWorkedTrianglesAreTheWorkedTable) {
   std::vector<HalfedgeId> ours(24);
   for (Index r = 0; r < 24; ++r) {
     const auto i = static_cast<std::size_t>(r);
-    ours[i] =
-        r < 18 ? HalfedgeId(r) : dcel->halfedges[static_cast<std::size_t>(kTable[i][1])].opposite;
+    ours[i] = r < 18 ? HalfedgeId(r)
+                     : dcel->halfedges[static_cast<std::size_t>(kHexagonTable[i][1])].opposite;
   }
   const auto our = [&](HalfedgeId r) { return ours[static_cast<std::size_t>(r.value)]; };
   for (std::size_t r = 0; r < 24; ++r) {

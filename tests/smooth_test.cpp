@@ -34,15 +34,12 @@ std::vector<float> smoothed(const Connectivity& mesh, std::vector<float> xyz,
   EXPECT_TRUE(smooth(mesh, all_of(xyz), options, execution, workspace));
   return xyz;
 }
-Connectivity mesh_of(const Soup& soup) {
-  return std::move(build(soup.face_list(), {}, Execution::serial())->mesh);
-}
 std::vector<float> points_of(const Soup& soup) { return {soup.xyz.begin(), soup.xyz.end()}; }
 
 // From the faces alone: who is joined to whom, and with which angles across.
-class Plain {
+class PlainRings {
  public:
-  explicit Plain(const PlainFaces& list) : count_(list.vertex_count) {
+  explicit PlainRings(const PlainFaces& list) : count_(list.vertex_count) {
     for (const auto& face : list.faces) {
       for (std::size_t k = 0; k < face.size(); ++k) {
         const auto a = static_cast<std::size_t>(face[k]);
@@ -117,8 +114,8 @@ PlainFaces plain_of(const Soup& soup) {
 
 TEST(Smooth, DoesWhatTheFacesSay) {
   for (const Soup& soup : {*shapes::torus(10, 7), *shapes::terrain(9, 8), *shapes::icosphere(2)}) {
-    const Plain plain(plain_of(soup));
-    const Connectivity open = mesh_of(soup);
+    const PlainRings plain(plain_of(soup));
+    const Connectivity open = built(soup);
     const Connectivity closed = std::move(*close_boundary(open, Execution::serial()));
     for (const SmoothWeights weights : {SmoothWeights::umbrella, SmoothWeights::cotangent}) {
       for (const SmoothUpdate update : {SmoothUpdate::double_buffered, SmoothUpdate::in_place}) {
@@ -143,7 +140,7 @@ TEST(Smooth, DoesWhatTheFacesSay) {
 
 TEST(Smooth, GivesTheSameBitsOnAllThreads) {
   const Soup soup = *shapes::gyroid(14);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   for (const SmoothWeights weights : {SmoothWeights::umbrella, SmoothWeights::cotangent}) {
     const SmoothOptions options{5, 1, weights, SmoothUpdate::double_buffered};
     const std::vector<float> expected = smoothed(mesh, points_of(soup), options);
@@ -161,7 +158,7 @@ TEST(Smooth, GivesTheSameBitsByThePlainWay) {
   bool is_moved = false;
   for (const Soup& soup : {*shapes::gyroid(14), *shapes::terrain(23, 31),
                            *shapes::fan(40, shapes::FanEnds::closed), *shapes::icosphere(4)}) {
-    const Connectivity open = mesh_of(soup);
+    const Connectivity open = built(soup);
     const Connectivity closed = std::move(*close_boundary(open, Execution::serial()));
     std::vector<float> xyz = points_of(soup);
     for (float& x : xyz) {
@@ -215,7 +212,7 @@ TEST(Smooth, HoldsTheBoundaryAndWhatIsNotManifold) {
 TEST(Smooth, LeavesAFlatMeshFlatAndByCotangentsAsItIs) {
   Soup soup = *shapes::grid(12, 9);
   for (std::size_t i = 2; i < soup.xyz.size(); i += 3) soup.xyz[i] = 0.5F;
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const std::vector<float> found =
       smoothed(mesh, points_of(soup), {10, 1, SmoothWeights::cotangent});
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], soup.xyz[i], 1e-5);
@@ -224,7 +221,7 @@ TEST(Smooth, LeavesAFlatMeshFlatAndByCotangentsAsItIs) {
 TEST(Smooth, LeavesWhatHasNoFiniteMean) {
   Soup soup = *shapes::torus(8, 6);
   soup.xyz[0] = std::numeric_limits<float>::quiet_NaN();
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   const std::vector<float> found = smoothed(mesh, points_of(soup), {3});
   EXPECT_TRUE(std::isnan(found[0]));
   EXPECT_EQ(std::count_if(found.begin(), found.end(), [](float x) { return !std::isfinite(x); }),
@@ -233,7 +230,7 @@ TEST(Smooth, LeavesWhatHasNoFiniteMean) {
 
 TEST(Smooth, KeepsTheBytesBetweenAndAllocatesNothingTwice) {
   const Soup soup = *shapes::torus(8, 6);
-  const Connectivity mesh = mesh_of(soup);
+  const Connectivity mesh = built(soup);
   std::vector<float> padded(4 * static_cast<std::size_t>(mesh.vertex_count()), 7.0F);
   for (std::size_t i = 0; i < soup.xyz.size(); ++i) padded[i / 3 * 4 + i % 3] = soup.xyz[i];
   Workspace workspace;

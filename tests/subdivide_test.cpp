@@ -15,6 +15,7 @@
 #include "hedgerow/shapes.h"
 #include "hedgerow/validate.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/plain_build.h"
 #include "support/random_faces.h"
 #include "support/reference_subdivide.h"
@@ -26,9 +27,6 @@ namespace {
 constexpr std::array kSchemes = {SubdivisionScheme::catmull_clark, SubdivisionScheme::loop,
                                  SubdivisionScheme::sqrt3};
 
-Positions positions_of(const std::vector<float>& xyz) {
-  return {xyz.data(), static_cast<std::int64_t>(xyz.size() / 3)};
-}
 std::vector<float> random_points(std::int64_t count, Random& random) {
   std::vector<float> xyz(static_cast<std::size_t>(3 * count));
   for (float& x : xyz) x = static_cast<float>(random.below(2001) - 1000) / 256.0F;
@@ -51,7 +49,6 @@ void expect_near(const std::vector<float>& found, const std::vector<float>& expe
     ASSERT_NEAR(found[i], expected[i], 1e-5) << "coordinate " << i % 3 << " of vertex " << i / 3;
   }
 }
-std::vector<float> to_vector(const Buffer<float>& values) { return {values.begin(), values.end()}; }
 
 // One level after another, each compared with the reference on the same input.
 void expect_as_reference(PlainFaces list, SubdivisionScheme scheme, int levels, Random& random,

@@ -44,14 +44,14 @@ bool same_terms(std::span<const TermRow> a, std::span<const TermRow> b) {
   return a.size() == b.size();
 }
 
-struct Form {
+struct TermForm {
   const char* name;
   decltype(&kernels::fill_term_rows_scalar) fill;
   decltype(&kernels::add_terms_scalar) add;
 };
 
-std::vector<Form> forms(const kernels::Points& points) {
-  std::vector<Form> all = {{"sse", kernels::fill_term_rows_sse, kernels::add_terms_sse}};
+std::vector<TermForm> forms(const kernels::Points& points) {
+  std::vector<TermForm> all = {{"sse", kernels::fill_term_rows_sse, kernels::add_terms_sse}};
   if (kernels::suits_avx2(points)) {
     all.push_back({"avx2", kernels::fill_term_rows_avx2, kernels::add_terms_avx2});
   }
@@ -67,7 +67,7 @@ TEST(TermRows, AreTheSameInEveryForm) {
       const auto rows = static_cast<std::size_t>(count * kernels::rows_of(weight));
       Buffer<TermRow> expected(rows);
       kernels::fill_term_rows_scalar(triangles, points, weight, expected.data());
-      for (const Form& form : forms(points)) {
+      for (const TermForm& form : forms(points)) {
         Buffer<TermRow> found(rows);
         form.fill(triangles, points, weight, found.data());
         EXPECT_TRUE(same_terms(expected.span(), found.span()))
@@ -91,7 +91,7 @@ TEST(TermRows, AddUpTheSameInEveryFormInsideABlockAndAcross) {
         return sums;
       };
       const Buffer<TermRow> expected = sums_of(kernels::add_terms_scalar);
-      for (const Form& form : forms(points)) {
+      for (const TermForm& form : forms(points)) {
         EXPECT_TRUE(same_terms(expected.span(), sums_of(form.add).span()))
             << form.name << ", weight " << static_cast<int>(weight) << ", from " << range.begin;
       }

@@ -11,14 +11,13 @@
 #include "hedgerow/boundary.h"
 #include "hedgerow/build.h"
 #include "support/meshes.h"
+#include "support/numbers.h"
 #include "support/random_faces.h"
 #include "support/reference_mesh.h"
 #include "support/soundness.h"
 
 namespace hedgerow::test {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::string text(const std::vector<Violation>& violations) {
   std::string all;

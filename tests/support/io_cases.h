@@ -20,6 +20,12 @@ namespace hedgerow::test {
 [[nodiscard]] std::string outcome(std::string_view bytes, io::Format format,
                                   const io::ReadOptions& options = {});
 
+/// What is read, and the outcome that is expected.
+struct TextCase {
+  std::string_view text;
+  std::string_view outcome;
+};
+
 /// The faces, one list of corners each.
 [[nodiscard]] std::vector<std::vector<Index>> faces_of(const Soup& soup);
 

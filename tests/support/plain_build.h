@@ -1,9 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "hedgerow/build.h"
+#include "hedgerow/positions.h"
+#include "hedgerow/soup.h"
 #include "support/reference_mesh.h"
 
 namespace hedgerow::test {
@@ -24,6 +30,17 @@ inline Result<BuildOutput> build_plain(const PlainFaces& list, const Policies& p
   return build(is_triangles ? FaceList::triangles<Index>(all, list.vertex_count)
                             : FaceList::polygons<Index>(all, offsets, list.vertex_count),
                options, Execution::serial());
+}
+
+/// What the engine builds of a soup that it accepts.
+[[nodiscard]] inline Connectivity built(const Soup& soup) {
+  Result<BuildOutput> output = build(soup.face_list(), {}, Execution::serial());
+  EXPECT_TRUE(output);
+  return std::move(output->mesh);
+}
+
+[[nodiscard]] inline Positions positions_of(const std::vector<float>& xyz) {
+  return {xyz.data(), static_cast<std::int64_t>(xyz.size() / 3)};
 }
 
 }  // namespace hedgerow::test

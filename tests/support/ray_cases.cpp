@@ -88,6 +88,12 @@ Soup mixed_plane(Index rows) {
           Buffer<Index>::copy_of(offsets)};
 }
 
+Result<ray::Scene> scene_of(const RayMesh& subject, const ray::SceneOptions& options,
+                            const Execution& execution) {
+  return ray::Scene::build(*ray::Device::create(), subject.mesh,
+                           ray::PaddedPositions::of(subject.soup.xyz), options, execution);
+}
+
 std::vector<RayMesh> ray_meshes() {
   std::vector<RayMesh> meshes;
   meshes.emplace_back("icosphere", *shapes::icosphere(3));

@@ -19,6 +19,10 @@ struct RayMesh {
   RayMesh(std::string called, Soup&& faces);
 };
 
+[[nodiscard]] Result<ray::Scene> scene_of(const RayMesh& subject,
+                                          const ray::SceneOptions& options = {},
+                                          const Execution& execution = Execution::serial());
+
 /// Triangles, quads, and faces of three to eight corners, some of them concave, in one plane.
 [[nodiscard]] std::vector<RayMesh> ray_meshes();
 /// Rows of triangles, quads, hexagons and L-shaped faces of eight corners, in a tilted plane.

@@ -2,13 +2,12 @@
 #include <set>
 #include <tuple>
 
+#include "support/numbers.h"
 #include "support/reference_mesh.h"
 
 namespace hedgerow::test {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct WorkFace {
   Index input = 0;

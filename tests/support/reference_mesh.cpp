@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "support/numbers.h"
+
 namespace hedgerow::test {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Faces, half-edges and their cycles: everything that needs no neighbour.
 ReferenceMesh with_faces(const std::vector<std::vector<Index>>& faces, Index vertex_count) {

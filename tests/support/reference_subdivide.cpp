@@ -7,14 +7,13 @@
 #include <map>
 
 #include "support/meshes.h"
+#include "support/numbers.h"
 
 namespace hedgerow::test {
 namespace {
 
 using Vector = std::array<double, 3>;
 using Weights = std::map<Index, double>;  // of old vertices
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 void add(Weights& sum, const Weights& part, double factor) {
   for (const auto& [v, weight] : part) sum[v] += factor * weight;

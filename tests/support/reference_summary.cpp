@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <set>
 
+#include "support/numbers.h"
 #include "support/reference_mesh.h"
 
 namespace hedgerow::test {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Cycles of boundary edges of a manifold mesh, where one such edge leads on from each vertex.
 std::int64_t count_loops(const ReferenceMesh& mesh, const EdgeMap& edges) {

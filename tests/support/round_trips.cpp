@@ -12,12 +12,11 @@
 #include "hedgerow/radial.h"
 #include "hedgerow/split_edge.h"
 #include "hedgerow/winged_edge.h"
+#include "support/serial.h"
 
 namespace hedgerow::test {
 
 namespace {
-
-const Execution kSerial = Execution::serial();
 
 template <class T>
 bool is_same(std::span<T> a, std::span<T> b) {
