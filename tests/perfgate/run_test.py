@@ -55,8 +55,9 @@ class Protocol(GateTest):
             arguments = self.programs({"a": 1, "b": 2, "c": 3}, {"a": 1, "b": 2, "c": 3})
             for side in ("base", "head"):
                 (self.folder / f"{side}.calls").unlink(missing_ok=True)
+            # Eight pairs of each of three: no two of so many orders are the same by chance.
             ran = self.gate("run", "--out", self.out, "--no-probe", "--seed", seed, *arguments,
-                            *self.config(**FAST))
+                            *self.config(looks=[8], **FAST))
             self.assert_ends(ran, 0)
             return [call[:2] + [call[4]] for call in self.pair_calls()]
         self.assertEqual(schedule(11), schedule(11))
