@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "hedgerow/index.h"
 
@@ -14,6 +15,14 @@ inline constexpr std::size_t kAheadBytes = 2048;
 /// page and hardly start on a virtual machine; past the end of a column nothing happens.
 [[gnu::always_inline]] inline void prefetch_ahead(const Index* p) noexcept {
   __builtin_prefetch(p + kAheadBytes / sizeof(Index));
+}
+
+/// Asks for the line of `column[i]`; with an i below 0, that of no element, nothing happens. The
+/// address is a number, as no pointer may lead to before a column, or away from a null one.
+[[gnu::always_inline]] inline void prefetch_entry(const Index* column, Index i) noexcept {
+  const std::uintptr_t address =
+      reinterpret_cast<std::uintptr_t>(column) + static_cast<std::uintptr_t>(i) * sizeof(Index);
+  __builtin_prefetch(reinterpret_cast<const void*>(address));  // NOLINT(performance-no-int-to-ptr)
 }
 
 }  // namespace hedgerow::kernels

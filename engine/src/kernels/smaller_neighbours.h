@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <type_traits>
 
 #include "hedgerow/circulate.h"
 #include "hedgerow/topology.h"
+#include "kernels/prefetch.h"
 
 /// Connectedness read off the numbers of the vertices: if all but one have a smaller neighbour,
 /// each is led to that one by going from neighbour to smaller neighbour, so all are connected.
@@ -56,8 +56,7 @@ template <Topology Mesh>
   const Index* outgoing = mesh.outgoing.data();
   for (Index i = range.begin; i < range.end; ++i) {
     if (i % kStep == 0 && i < mesh.vertex_count() - kAhead) {
-      // An isolated vertex leads nowhere, and without half-edges there is no address to offset.
-      __builtin_prefetch(mesh.origin.data() + std::max(outgoing[i + kAhead], Index{0}));
+      prefetch_entry(mesh.origin.data(), outgoing[i + kAhead]);  // -1 where it is isolated
     }
     const HalfedgeId h(outgoing[i]);
     label[i] = h.valid() ? root : kInvalidIndex;
