@@ -18,8 +18,8 @@
 namespace hedgerow {
 namespace {
 
-// What the kernel says of the mapping that holds `address` in the line that starts with `key`; "" if
-// nothing.
+// What the kernel says of the mapping that holds `address` in the line that begins with `key`; ""
+// if nothing.
 std::string said_of(const void* address, std::string_view key) {
   const auto wanted = reinterpret_cast<std::uintptr_t>(address);
   std::ifstream maps("/proc/self/smaps");
