@@ -16,6 +16,7 @@ foreach(line IN LISTS lines)
     "set_tests_properties(\"${suite}\" PROPERTIES\n"
     "  SKIP_REGULAR_EXPRESSION \"${all_skipped}\"\n"
     "  LABELS \"${LABELS}\"\n"
-    "  TIMEOUT 300)\n")
+    "  COST ${COST}\n"
+    "  TIMEOUT 900)\n")
 endforeach()
 file(WRITE "${LIST}" "${content}")
