@@ -76,6 +76,16 @@ struct Limit {
   }
 };
 
+/// Seconds of one run.
+double timed_run(const Work& work) {
+  if (work.setup) work.setup();
+  const Clock::time_point start = Clock::now();
+  work.run();
+  const double seconds = seconds_since(start);
+  if (work.cleanup) work.cleanup();
+  return seconds;
+}
+
 /// One case, ready to be timed.
 struct Contender {
   const Case* benchmark = nullptr;
@@ -92,7 +102,7 @@ struct Contender {
   void measure() {
     // Rows of one thread may have left the others asleep for a second, and a virtual machine's
     // processor takes milliseconds to come back: longer than the row.
-    if (benchmark->threads > 1) run_untimed();
+    if (benchmark->threads > 1) (void)timed_run(work);
     double seconds = 0;
     double processor_seconds = 0;
     for (int i = 0; i < batch; ++i) {
@@ -107,13 +117,6 @@ struct Contender {
     spent_seconds += seconds;
     row.times_ns.push_back(seconds / batch * 1e9);
     row.processor_ns.push_back(processor_seconds / batch * 1e9);
-  }
-
- private:
-  void run_untimed() const {
-    if (work.setup) work.setup();
-    work.run();
-    if (work.cleanup) work.cleanup();
   }
 };
 
@@ -200,15 +203,6 @@ class Group {
     double seconds = timed_run(contender.work);
     if (seconds < 10 * kBatchSeconds) seconds = std::min(seconds, timed_run(contender.work));
     contender.batch = batch_size(seconds);
-  }
-
-  static double timed_run(const Work& work) {
-    if (work.setup) work.setup();
-    const Clock::time_point start = Clock::now();
-    work.run();
-    const double seconds = seconds_since(start);
-    if (work.cleanup) work.cleanup();
-    return seconds;
   }
 
   std::vector<Contender> contenders_;
