@@ -19,8 +19,8 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kQueryGrain = 1 << 14;  // vertices or faces a task
-constexpr Index kValenceShare =
-    1 << 18;  // half-edges that are worth a thread's array of all vertices
+// Half-edges that are worth a thread's array of all vertices.
+constexpr Index kValenceShare = 1 << 18;
 
 kernels::FaceColumns face_columns(const Connectivity& mesh) noexcept {
   const Index* first = mesh.is_triangle_mesh() ? nullptr : mesh.polygons().first_of.data();

@@ -20,8 +20,8 @@ namespace hedgerow {
 namespace {
 
 constexpr Index kReorderGrain = 1 << 14;  // elements a task
-constexpr Index kOutgoingShare =
-    1 << 18;  // half-edges that are worth a thread's array of all vertices
+// Half-edges that are worth a thread's array of all vertices.
+constexpr Index kOutgoingShare = 1 << 18;
 
 bool needs_positions(ReorderMethod method) {
   return method == ReorderMethod::hilbert || method == ReorderMethod::morton ||

@@ -9,8 +9,8 @@ namespace hedgerow::detail {
 
 namespace {
 
-constexpr Index kSortGrain =
-    1 << 16;  // items a task: as many counters as that cost little beside them
+// Items a task: as many counters as that cost little beside them.
+constexpr Index kSortGrain = 1 << 16;
 
 template <class Key>
 class RadixSort {

@@ -12,8 +12,8 @@ namespace hedgerow {
 
 namespace {
 
-constexpr Index kPatchGrain =
-    1 << 19;  // half-edges a share: fewer are not worth trees of their own
+// Half-edges a share: fewer are not worth trees of their own.
+constexpr Index kPatchGrain = 1 << 19;
 
 template <Topology Mesh>
 Patches find_patches(const Mesh& mesh, const RadialCycles& cycles, const Execution& execution) {
