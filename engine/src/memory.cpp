@@ -28,39 +28,6 @@ bool wants_huge_pages() noexcept {
   }();
   return wanted;
 }
-
-#if defined(__linux__)
-bool is_used(std::byte* page) noexcept {
-  unsigned char in_memory = 0;
-  return mincore(page, 1, &in_memory) == 0 && (in_memory & 1) != 0;
-}
-
-// Advice is for pages to come. What the heap hands out again may lie in small ones, which others
-// have left there; the kernel merges them by itself, but only after many seconds. In one call for
-// neighbours, as each call waits for all processors; pieces that are huge already cost next to
-// nothing.
-void merge_used_pages(std::byte* begin, std::byte* end) noexcept {
-  constexpr int kCollapse = 25;  // MADV_COLLAPSE of Linux 6.1, in the headers of later libraries
-  while (begin < end) {
-    std::byte* behind = begin;
-    while (behind < end && is_used(behind)) behind += kHugePage;
-    if (behind != begin) (void)madvise(begin, static_cast<std::size_t>(behind - begin), kCollapse);
-    begin = behind == end ? end : behind + kHugePage;
-  }
-}
-#endif
-
-// Whole huge pages from `memory` on. Advice only: where they are off, nothing changes but the time.
-void advise_huge_pages(void* memory, std::size_t bytes) noexcept {
-#if defined(__linux__)
-  const std::size_t size = bytes / kHugePage * kHugePage;
-  (void)madvise(memory, size, MADV_HUGEPAGE);
-  merge_used_pages(static_cast<std::byte*>(memory), static_cast<std::byte*>(memory) + size);
-#else
-  (void)memory;
-  (void)bytes;
-#endif
-}
 }  // namespace
 
 // A fresh 100 MB column is 25,000 page faults in 4 KB pages and 50 in 2 MB ones; PERF.md, "memory".
@@ -72,7 +39,10 @@ void* allocate_bytes(std::size_t bytes) {
   const std::size_t size = (bytes + kReadableTailBytes + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, size);
   if (memory == nullptr) throw std::bad_alloc();
-  if (is_huge) advise_huge_pages(memory, size);
+#if defined(__linux__)
+  // Advice only: where huge pages are off, nothing changes but the time.
+  if (is_huge) (void)madvise(memory, size, MADV_HUGEPAGE);
+#endif
   return memory;
 }
 
@@ -82,7 +52,9 @@ void prefer_huge_pages(void* memory, std::size_t bytes) noexcept {
   if (bytes < 2 * kHugePage || !wants_huge_pages()) return;
   std::size_t size = bytes;
   if (std::align(kHugePage, kHugePage, memory, size) == nullptr) return;
-  advise_huge_pages(memory, size);
+#if defined(__linux__)
+  (void)madvise(memory, size / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace detail

@@ -12,9 +12,8 @@ namespace hedgerow {
 
 namespace detail {
 /// 64-byte aligned, uninitialised memory with `kReadableTailBytes` behind it; large blocks ask for
-/// huge pages where the system has them, also in place of small ones that the heap has used before,
-/// unless the environment variable HEDGEROW_HUGE_PAGES is "off" at the first call. Throws
-/// std::bad_alloc. Null for 0 bytes.
+/// huge pages where the system has them, unless the environment variable HEDGEROW_HUGE_PAGES is
+/// "off" at the first call. Throws std::bad_alloc. Null for 0 bytes.
 [[nodiscard]] void* allocate_bytes(std::size_t bytes);
 void free_bytes(void* memory) noexcept;
 /// Asks for huge pages in memory of another origin that has not been written yet.
