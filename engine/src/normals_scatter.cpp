@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <type_traits>
 
+#include "at.h"
 #include "hedgerow/normals.h"
 #include "kernels/scatter_normals.h"
 #include "normals_check.h"
@@ -70,15 +72,16 @@ class Incidence {
 
   // False: an index is out of range.
   [[nodiscard]] bool fill(const Execution& execution) {
-    return par::reduce<NotBad>(
-               execution.with_grain(0), plan_.run_count, kRunGrain,
-               [&](IndexRange runs) {
-                 NotBad good;
-                 for (Index run = runs.begin; run < runs.end; ++run) good.value &= fill_run(run);
-                 return good;
-               },
-               [](NotBad a, NotBad b) { return NotBad{a.value && b.value}; })
-        .value;
+    const NotBad good = par::reduce<NotBad>(
+        execution.with_grain(0), plan_.run_count, kRunGrain,
+        [&](IndexRange runs) {
+          NotBad part;
+          for (Index run = runs.begin; run < runs.end; ++run) part.value &= fill_run(run);
+          return part;
+        },
+        [](NotBad a, NotBad b) { return NotBad{a.value && b.value}; });
+    find_runs();
+    return good.value;
   }
 
   // Whether the run touches blocks [begin, end), and no others.
@@ -98,18 +101,25 @@ class Incidence {
     return {any, !other};
   }
 
+  // The first run that touches one of blocks [begin, end), and one behind the last.
+  [[nodiscard]] IndexRange runs_of(IndexRange blocks) const noexcept {
+    IndexRange runs{plan_.run_count, 0};
+    for (Index b = blocks.begin; b < blocks.end; ++b) {
+      const IndexRange& its = runs_[at(b)];
+      runs = {std::min(runs.begin, its.begin), std::max(runs.end, its.end)};
+    }
+    return runs;
+  }
+
   // How many groups of `size` blocks the run touches.
   [[nodiscard]] std::int64_t count_groups(Index run, Index size) const noexcept {
-    const std::uint64_t* row = row_of(run);
     std::int64_t count = 0;
     Index last = kInvalidIndex;
-    for (std::size_t w = 0; w < plan_.words_per_run; ++w) {
-      for (std::uint64_t word = row[w]; word != 0; word &= word - 1) {
-        const Index group = (static_cast<Index>(w) * 64 + std::countr_zero(word)) / size;
-        count += group != last;
-        last = group;
-      }
-    }
+    for_each_block(run, [&](Index b) {
+      const Index group = b / size;
+      count += group != last;
+      last = group;
+    });
     return count;
   }
 
@@ -130,6 +140,27 @@ class Incidence {
       return n == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1;
     };
     return below(high) & ~below(low);
+  }
+
+  // Calls visit(block) for those that the run touches, in ascending order.
+  template <class Visit>
+  void for_each_block(Index run, const Visit& visit) const noexcept {
+    const std::uint64_t* row = row_of(run);
+    for (std::size_t w = 0; w < plan_.words_per_run; ++w) {
+      for (std::uint64_t word = row[w]; word != 0; word &= word - 1) {
+        visit(static_cast<Index>(w) * 64 + std::countr_zero(word));
+      }
+    }
+  }
+
+  void find_runs() noexcept {
+    std::fill_n(runs_.begin(), plan_.block_count, IndexRange{plan_.run_count, 0});
+    for (Index run = 0; run < plan_.run_count; ++run) {
+      for_each_block(run, [&](Index b) {
+        IndexRange& runs = runs_[at(b)];
+        runs = {std::min(runs.begin, run), run + 1};
+      });
+    }
   }
 
   bool fill_run(Index run) const noexcept {
@@ -154,6 +185,7 @@ class Incidence {
   const Plan& plan_;
   const kernels::FaceSource& faces_;
   std::uint64_t* bits_;
+  std::array<IndexRange, kMaxBlocks> runs_;  // for each block
 };
 
 // Blocks a task: the fewest that keep the visits of runs below 3/2 of the corners, and no more
@@ -174,14 +206,15 @@ Index choose_group(const Plan& plan, const Incidence& incidence, const Execution
 }
 
 NormalStats scatter_block(const kernels::ScatterInput& input, const Incidence& incidence,
-                          const Plan& plan, IndexRange blocks, const kernels::SumBlock& block,
+                          IndexRange blocks, const kernels::SumBlock& block,
                           const kernels::NormalWriter& writer) {
   // All bits zero is a sum of nothing; clearing bytes is a quarter of the work of copying sums.
   static_assert(std::is_trivially_copyable_v<kernels::VertexSum>);
   std::memset(static_cast<void*>(block.sums), 0,
               static_cast<std::size_t>(block.size) * sizeof(kernels::VertexSum));
+  const IndexRange runs = incidence.runs_of(blocks);
   const auto for_each_run = [&](const auto& visit) {
-    for (Index run = 0; run < plan.run_count; ++run) {
+    for (Index run = runs.begin; run < runs.end; ++run) {
       const Incidence::Touch touch = incidence.touch(run, blocks.begin, blocks.end);
       if (touch.any) visit(incidence.faces_of(run), touch.only);
     }
@@ -239,7 +272,7 @@ Result<NormalStats> scatter_vertex_normals(const FaceList& faces, Positions posi
             blocks.end == plan.block_count ? vertices - begin : blocks.size() << plan.block_shift;
         const std::size_t place = static_cast<std::size_t>(has_turns ? slot : task) *
                                   (static_cast<std::size_t>(group) << plan.block_shift);
-        return scatter_block(input, incidence, plan, blocks, {begin, size, sums + place}, writer);
+        return scatter_block(input, incidence, blocks, {begin, size, sums + place}, writer);
       },
       kernels::merge);
 }
