@@ -55,6 +55,9 @@ std::vector<TermForm> forms(const kernels::Points& points) {
   if (kernels::suits_avx2(points)) {
     all.push_back({"avx2", kernels::fill_term_rows_avx2, kernels::add_terms_avx2});
   }
+  if (kernels::suits_avx512(points)) {
+    all.push_back({"avx512", kernels::fill_term_rows_avx512, kernels::add_terms_avx512});
+  }
   return all;
 }
 

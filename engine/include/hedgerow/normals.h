@@ -57,7 +57,8 @@ struct NormalStats {
 };
 
 /// Largest error of the corner angle that `NormalWeight::angle` uses, in radians, for edge vectors
-/// whose float cross and dot products are exact. Tested against long double.
+/// whose float cross and dot products are exact; twice that for the largest angle of a triangle,
+/// which is what the two others leave of half a turn. Tested against long double.
 inline constexpr double kAngleErrorBound = 3e-7;
 
 /// One unit normal per face, in the direction from which its corners run counter-clockwise.

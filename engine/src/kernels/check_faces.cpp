@@ -86,7 +86,7 @@ FaceCheck check_runs_scalar(IndexRange range, const FaceColumns& faces, Index ru
 
 FaceCheck check_runs(IndexRange range, const FaceColumns& faces, Index run_length, int block_shift,
                      RunBlocks* runs) noexcept {
-  if (faces.is_triangles() && simd_path() == SimdPath::avx2) {
+  if (faces.is_triangles() && has_avx2()) {
     return check_triangle_runs_avx2(range, faces, run_length, block_shift, runs);
   }
   FaceCheck check;

@@ -41,7 +41,7 @@ struct RunBlocks {
                                            Index run_length, int block_shift, RunBlocks* runs,
                                            FaceCheck& check) noexcept;
 
-/// Eight triangles at a time. \pre `simd_path() == SimdPath::avx2`
+/// Eight triangles at a time. \pre `has_avx2()`
 [[nodiscard]] FaceCheck check_triangle_runs_avx2(IndexRange range, const FaceColumns& faces,
                                                  Index run_length, int block_shift,
                                                  RunBlocks* runs) noexcept;

@@ -17,7 +17,7 @@ void clear_slots(CornerSlots& slots) noexcept {
 void place_corners(IndexRange range, const FaceColumns& faces, Faces where,
                    CornerSlots& slots) noexcept {
   if (where == Faces::some_outside) {
-    const bool is_fast = faces.is_triangles() && simd_path() == SimdPath::avx2;
+    const bool is_fast = faces.is_triangles() && has_avx2();
     is_fast ? place_triangles_avx2(range, faces, slots) : place_corners_scalar(range, faces, slots);
     return;
   }

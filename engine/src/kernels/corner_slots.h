@@ -67,7 +67,7 @@ void place_corners(IndexRange range, const FaceColumns& faces, Faces where,
                    CornerSlots& slots) noexcept;
 
 /// The plain form for faces of which some are outside, and one for triangles that asks eight of
-/// them at once. \pre of the second: `simd_path() == SimdPath::avx2`
+/// them at once. \pre of the second: `has_avx2()`
 void place_corners_scalar(IndexRange range, const FaceColumns& faces, CornerSlots& slots) noexcept;
 void place_triangles_avx2(IndexRange range, const FaceColumns& faces, CornerSlots& slots) noexcept;
 

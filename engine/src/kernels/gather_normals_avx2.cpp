@@ -139,15 +139,10 @@ int add_rows(const Rings& rings, const GatherInput& input, const Loader& loader,
     loader.load(input.origin, face, p);
     TriangleTerms<Float8> terms;
     const Mask8 is_usual_here = triangle_terms<W>(p[0], p[1], p[2], terms);
-    Float8 factor(0.0f);
-    if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
-      factor =
-          select(Mask8{_mm256_castsi256_ps(is_first)}, terms.factor[0],
-                 select(Mask8{_mm256_castsi256_ps(is_third)}, terms.factor[2], terms.factor[1]));
-    }
     const Mask8 skip{_mm256_castsi256_ps(is_none)};
     usual &= is_usual_here.lanes() | skip.lanes();
-    const Vec3<Float8> next_sum = sum + corner_term<W>(terms, factor);
+    const Vec3<Float8> next_sum = sum + corner_term<W>(terms, Mask8{_mm256_castsi256_ps(is_first)},
+                                                       Mask8{_mm256_castsi256_ps(is_third)});
     sum = skip.lanes() == 0 ? next_sum : select(skip, sum, next_sum);
   }
   return ~usual & 0xff;

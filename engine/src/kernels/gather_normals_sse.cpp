@@ -8,22 +8,9 @@ namespace hedgerow::kernels {
 
 #if defined(__SSE2__)
 
-namespace {
-
-// The factor of corner k[i] in lane i.
-Float4 factor_of(const TriangleTerms<Float4>& terms, const float* k) noexcept {
-  const __m128 corner = _mm_load_ps(k);
-  const Mask4 is_first{_mm_cmpeq_ps(corner, _mm_setzero_ps())};
-  const Mask4 is_second{_mm_cmpeq_ps(corner, _mm_set1_ps(1))};
-  return select(is_first, terms.factor[0], select(is_second, terms.factor[1], terms.factor[2]));
-}
-
-}  // namespace
-
 template <NormalWeight W>
 Float3 add_triangle_corners_sse(Float3 sum, Index* ids, Index count,
                                 const GatherInput& input) noexcept {
-  constexpr bool kOneTerm = W == NormalWeight::area || W == NormalWeight::uniform;
   for (Index i = count; i < count + 3; ++i) ids[i] = ids[count - 1];
   __m128 total = _mm_setr_ps(sum.x, sum.y, sum.z, 0);
   for (Index begin = 0; begin < count; begin += 4) {
@@ -47,8 +34,10 @@ Float3 add_triangle_corners_sse(Float3 sum, Index* ids, Index count,
       total = _mm_setr_ps(partial.x, partial.y, partial.z, 0);
       continue;
     }
-    const Float4 factor = kOneTerm ? Float4(0.0f) : factor_of(terms, k);
-    const Rows rows = to_rows(corner_term<W>(terms, factor), 0);
+    const __m128 corner = _mm_load_ps(k);
+    const Mask4 is_first{_mm_cmpeq_ps(corner, _mm_setzero_ps())};
+    const Mask4 is_third{_mm_cmpeq_ps(corner, _mm_set1_ps(2))};
+    const Rows rows = to_rows(corner_term<W>(terms, is_first, is_third), 0);
     for (Index i = 0; i < used; ++i) total = _mm_add_ps(total, rows.row[i]);
   }
   return to_float3(total);

@@ -55,7 +55,7 @@ LinkStats link_vertices_scalar(const CornerSlots& slots, Index* opposite, Index*
 
 LinkStats link_vertices(const CornerSlots& slots, Index* opposite, Index* outgoing,
                         Index* irregular) noexcept {
-  if (simd_path() == SimdPath::avx2) {
+  if (has_avx2()) {
     return link_vertices_avx2(slots, opposite, outgoing, irregular);
   }
   return link_vertices_scalar(slots, opposite, outgoing, irregular);

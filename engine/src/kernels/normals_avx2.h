@@ -30,6 +30,35 @@ namespace {
           _mm256_shuffle_ps(z_low, z_high, 0x44)};
 }
 
+/// Eight vectors as rows x, y, z, w: row[j] has those of lanes j and j + 4.
+struct PairedRows {
+  __m256 row[4];
+};
+[[nodiscard, gnu::always_inline]] inline PairedRows to_paired_rows(const Vec3<Float8>& v,
+                                                                   float w) noexcept {
+  const __m256 last = _mm256_set1_ps(w);
+  const __m256 xy_low = _mm256_unpacklo_ps(v.x.bits, v.y.bits);
+  const __m256 xy_high = _mm256_unpackhi_ps(v.x.bits, v.y.bits);
+  const __m256 zw_low = _mm256_unpacklo_ps(v.z.bits, last);
+  const __m256 zw_high = _mm256_unpackhi_ps(v.z.bits, last);
+  return {{_mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
+           _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)}};
+}
+
+/// The same one by one, in the order of the lanes.
+struct Rows8 {
+  __m128 row[8];
+};
+[[nodiscard, gnu::always_inline]] inline Rows8 to_rows(const Vec3<Float8>& v, float w) noexcept {
+  const PairedRows pairs = to_paired_rows(v, w);
+  Rows8 rows;
+  for (int i = 0; i < 4; ++i) {
+    rows.row[i] = _mm256_castps256_ps128(pairs.row[i]);
+    rows.row[i + 4] = _mm256_extractf128_ps(pairs.row[i], 1);
+  }
+  return rows;
+}
+
 /// Loads the positions of the corners of eight triangles into lanes. `kFloats` is the stride of the
 /// positions, or 0 for "what they say", which takes a multiplication a corner.
 ///
@@ -59,20 +88,53 @@ class TriangleLoader {
     }
   }
 
+  using Float = Float8;
+  static constexpr Index kLanes = 8;
+
+  /// Where the position of a vertex lies. By reference: the offset is taken of the index in memory,
+  /// by one instruction in place of a load, an addition and a factor.
+  [[nodiscard, gnu::always_inline]] const float* at(const Index& v) const noexcept {
+#if defined(__x86_64__)
+    if constexpr (kFloats == 3 && sizeof(Index) == 4) {
+      std::uintptr_t bytes;
+      asm("imull $12, %1, %k0" : "=r"(bytes) : "m"(v));
+      return reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(data_) + bytes);
+    }
+#endif
+    return data_ + static_cast<std::size_t>(v) * (kFloats == 0 ? floats_ : kFloats);
+  }
+
+  /// The corners of eight triangles, lane by lane as `store_turned` wants them: lane i has triangle
+  /// 2 (i mod 4) + i / 4, so that the two halves of a row are triangles in a row.
+  [[gnu::always_inline]] void load_turned(const Index* corners,
+                                          Vec3<Float8> (&p)[3]) const noexcept {
+    const auto corner = [corners](int i, int k) -> const Index& {
+      return corners[3 * (2 * (i % 4) + i / 4) + k];
+    };
+    load(corner, largest_of(corners), p);
+  }
+  /// Such lanes and `w` as rows, in the order of the triangles.
+  [[gnu::always_inline]] static void store_turned(const Vec3<Float8>& v, float w,
+                                                  __m128* rows) noexcept {
+    const PairedRows pairs = to_paired_rows(v, w);
+    auto* to = reinterpret_cast<float*>(rows);
+    for (int j = 0; j < 4; ++j) _mm256_store_ps(to + 8 * j, pairs.row[j]);
+  }
+
   /// Whether the last vertex is among the corners of eight triangles.
   [[nodiscard]] bool has_last(const Index* corners) const noexcept {
     return is_any_last(largest_of(corners));
   }
   /// The positions of two vertices, as rows of x, y, z and what lies behind them. \pre neither is
   /// the last vertex
-  [[nodiscard]] __m256 load_two(Index low, Index high) const noexcept {
+  [[nodiscard]] __m256 load_two(const Index& low, const Index& high) const noexcept {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(low))),
                                 _mm_loadu_ps(at(high)), 1);
   }
 
   /// Lane i of p[k] is at corners[3 i + k].
   [[gnu::always_inline]] void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
-    const auto corner = [corners](int i, int k) { return corners[3 * i + k]; };
+    const auto corner = [corners](int i, int k) -> const Index& { return corners[3 * i + k]; };
     load(corner, largest_of(corners), p);
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
@@ -88,17 +150,13 @@ class TriangleLoader {
     };
     __m128i largest = quad(0);
     for (int i = 1; i < 8; ++i) largest = _mm_max_epi32(largest, quad(i));
-    const auto corner = [&](int i, int k) { return corners[first[i] + k]; };
+    const auto corner = [&](int i, int k) -> const Index& { return corners[first[i] + k]; };
     load(corner, _mm256_castsi128_si256(largest), p);
   }
 
  private:
   static constexpr std::ptrdiff_t kIndexGroupsAhead = 64;
   static constexpr std::ptrdiff_t kPointGroupsAhead = 16;
-
-  [[nodiscard]] const float* at(Index v) const noexcept {
-    return data_ + static_cast<std::size_t>(v) * (kFloats == 0 ? floats_ : kFloats);
-  }
 
   // One lane has the largest of 24.
   [[nodiscard]] static __m256i largest_of(const Index* corners) noexcept {
@@ -154,27 +212,6 @@ template <class Function>
 inline decltype(auto) with_loader(const Points& points, const Function& function) noexcept {
   return points.positions.stride_bytes == sizeof(float[3]) ? function(TriangleLoader<3>(points))
                                                            : function(TriangleLoader<0>(points));
-}
-
-/// Eight vectors as rows x, y, z, w.
-struct Rows8 {
-  __m128 row[8];
-};
-[[nodiscard, gnu::always_inline]] inline Rows8 to_rows(const Vec3<Float8>& v, float w) noexcept {
-  const __m256 last = _mm256_set1_ps(w);
-  const __m256 xy_low = _mm256_unpacklo_ps(v.x.bits, v.y.bits);
-  const __m256 xy_high = _mm256_unpackhi_ps(v.x.bits, v.y.bits);
-  const __m256 zw_low = _mm256_unpacklo_ps(v.z.bits, last);
-  const __m256 zw_high = _mm256_unpackhi_ps(v.z.bits, last);
-  const __m256 pair[4] = {
-      _mm256_shuffle_ps(xy_low, zw_low, 0x44), _mm256_shuffle_ps(xy_low, zw_low, 0xee),
-      _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-  Rows8 rows;
-  for (int i = 0; i < 4; ++i) {
-    rows.row[i] = _mm256_castps256_ps128(pair[i]);
-    rows.row[i + 4] = _mm256_extractf128_ps(pair[i], 1);
-  }
-  return rows;
 }
 
 /// Eight float3 in a row are three vectors exactly: `load_triangles` the other way round. `Store`

@@ -89,6 +89,7 @@ struct Mask8 {
   friend Mask8 operator&(Mask8 a, Mask8 b) noexcept { return {_mm256_and_ps(a.bits, b.bits)}; }
   /// Bit i: lane i.
   [[nodiscard]] int lanes() const noexcept { return _mm256_movemask_ps(bits); }
+  [[nodiscard]] bool all() const noexcept { return lanes() == 0xff; }
 };
 
 struct Float8 {
@@ -136,6 +137,64 @@ struct Float8 {
 }
 [[nodiscard]] inline Float8 negated(Mask8 condition, Float8 a) noexcept {
   return _mm256_xor_ps(_mm256_and_ps(condition.bits, _mm256_set1_ps(-0.0f)), a.bits);
+}
+
+#endif
+
+// Only in sources that are compiled for AVX-512.
+#if defined(__AVX512F__)
+
+/// Sixteen comparisons.
+struct Mask16 {
+  __mmask16 bits;
+
+  friend Mask16 operator&(Mask16 a, Mask16 b) noexcept { return {_kand_mask16(a.bits, b.bits)}; }
+  [[nodiscard]] bool all() const noexcept { return bits == 0xffff; }
+};
+
+struct Float16 {
+  __m512 bits;
+
+  Float16() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float16(__m512 value) noexcept : bits(value) {}
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  Float16(float value) noexcept : bits(_mm512_set1_ps(value)) {}
+
+  friend Float16 operator+(Float16 a, Float16 b) noexcept { return _mm512_add_ps(a.bits, b.bits); }
+  friend Float16 operator-(Float16 a, Float16 b) noexcept { return _mm512_sub_ps(a.bits, b.bits); }
+  friend Float16 operator*(Float16 a, Float16 b) noexcept { return _mm512_mul_ps(a.bits, b.bits); }
+  friend Float16 operator/(Float16 a, Float16 b) noexcept { return _mm512_div_ps(a.bits, b.bits); }
+  friend Mask16 operator<(Float16 a, Float16 b) noexcept {
+    return {_mm512_cmp_ps_mask(a.bits, b.bits, _CMP_LT_OS)};
+  }
+  friend Mask16 operator>(Float16 a, Float16 b) noexcept {
+    return {_mm512_cmp_ps_mask(a.bits, b.bits, _CMP_GT_OS)};
+  }
+  friend Mask16 operator<=(Float16 a, Float16 b) noexcept {
+    return {_mm512_cmp_ps_mask(a.bits, b.bits, _CMP_LE_OS)};
+  }
+  friend Mask16 operator>=(Float16 a, Float16 b) noexcept {
+    return {_mm512_cmp_ps_mask(a.bits, b.bits, _CMP_GE_OS)};
+  }
+};
+
+[[nodiscard]] inline Float16 square_root(Float16 a) noexcept { return _mm512_sqrt_ps(a.bits); }
+[[nodiscard]] inline Float16 magnitude(Float16 a) noexcept { return _mm512_abs_ps(a.bits); }
+[[nodiscard]] inline Float16 smaller(Float16 a, Float16 b) noexcept {
+  return _mm512_min_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float16 larger(Float16 a, Float16 b) noexcept {
+  return _mm512_max_ps(a.bits, b.bits);
+}
+[[nodiscard]] inline Float16 select(Mask16 condition, Float16 a, Float16 b) noexcept {
+  return _mm512_mask_blend_ps(condition.bits, b.bits, a.bits);
+}
+[[nodiscard]] inline Float16 kept(Mask16 condition, Float16 a) noexcept {
+  return _mm512_maskz_mov_ps(condition.bits, a.bits);
+}
+[[nodiscard]] inline Float16 negated(Mask16 condition, Float16 a) noexcept {
+  return _mm512_mask_xor_ps(a.bits, condition.bits, a.bits, _mm512_set1_ps(-0.0f));
 }
 
 #endif

@@ -43,12 +43,13 @@ template <class T>
 
 inline constexpr float kPi = 3.14159265358979323846f;
 
+// The angle in [0, pi / 2] of which `adjacent`, not below 0, is the dot product.
+//
 // atan(t) = t + t^3 P(t^2) for t <= tan(pi / 8), found by the exchange algorithm: off by 4.9e-9 at
 // the most before rounding. Larger slopes are first turned by pi / 4, where
 // atan(a / b) = pi / 4 - atan((b - a) / (b + a)).
 template <class T>
-[[nodiscard, gnu::always_inline]] inline T angle_of(T cross_length, T dot_product) noexcept {
-  const T adjacent = magnitude(dot_product);
+[[nodiscard, gnu::always_inline]] inline T acute_angle_of(T cross_length, T adjacent) noexcept {
   const T low = smaller(cross_length, adjacent);
   const T high = larger(cross_length, adjacent);
   const auto is_steep = low > high * T(0.41421356f);
@@ -61,7 +62,12 @@ template <class T>
   p = p * s + T(-0x1.5553d2p-2f);
   const T small_angle = kept(is_steep, T(0.25f * kPi)) + (t + t * (s * p));
   const auto is_over_45 = cross_length > adjacent;
-  const T acute = kept(is_over_45, T(0.5f * kPi)) + negated(is_over_45, small_angle);
+  return kept(is_over_45, T(0.5f * kPi)) + negated(is_over_45, small_angle);
+}
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T angle_of(T cross_length, T dot_product) noexcept {
+  const T acute = acute_angle_of(cross_length, magnitude(dot_product));
   const auto is_obtuse = dot_product < T(0.0f);
   return kept(is_obtuse, T(kPi)) + negated(is_obtuse, acute);
 }
@@ -80,30 +86,28 @@ struct TriangleTerms {
                  ///< else nothing
 };
 
-/// Fills `terms` and returns in which lanes it may be used. (Inlined by force, as is what it hands
-/// over: a call passes all lanes through memory.)
+/// The first step to `terms`: uniform and angle still have the area vector as base, and the square
+/// of its length as length. Returns in which lanes the terms may be used. (Inlined by force, as is
+/// what it hands over: a call passes all lanes through memory.)
 template <NormalWeight W, class T>
-[[nodiscard, gnu::always_inline]] inline auto triangle_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
-                                                             TriangleTerms<T>& terms) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto begin_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
+                                                          TriangleTerms<T>& terms) noexcept {
   const Vec3<T> u = p1 - p0;
   const Vec3<T> v = p2 - p0;
   const Vec3<T> area = cross(u, v);
   const T square = dot(area, area);
   terms.base = area;
-  if constexpr (W == NormalWeight::area) {
-    return is_usual(square);
-  } else if constexpr (W == NormalWeight::uniform) {
-    terms.base = area * (T(1.0f) / square_root(square));
+  terms.length = square;
+  if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) {
     return is_usual(square);
   } else if constexpr (W == NormalWeight::angle) {
     const Vec3<T> w = p2 - p1;
-    terms.length = square_root(square);
-    terms.base = area * (T(1.0f) / terms.length);
     terms.factor[0] = dot(u, v);
     terms.factor[1] = T(0.0f) - dot(u, w);
     terms.factor[2] = dot(v, w);
-    const T extent = (dot(u, u) + dot(v, v)) + dot(w, w);
-    return is_usual(square) & (extent <= T(kLargeSquare));
+    // Half the sum of the squares of the edges: |u|^2 is the sum of the first two, and so on.
+    const T extent = (terms.factor[0] + terms.factor[1]) + terms.factor[2];
+    return is_usual(square) & (extent <= T(0.5f * kLargeSquare));
   } else {
     const Vec3<T> w = p2 - p1;
     const T uu = dot(u, u);
@@ -122,19 +126,68 @@ template <NormalWeight W, class T>
   }
 }
 
-/// By what corner k multiplies the base, given its factor; where the corners differ.
+/// The second step, a square root and a division that wait for each other.
 template <NormalWeight W, class T>
-[[nodiscard, gnu::always_inline]] inline T corner_weight(T length, T factor) noexcept {
-  if constexpr (W == NormalWeight::angle) return angle_of(length, factor);
-  return T(1.0f) / factor;
+[[gnu::always_inline]] inline void finish_terms(TriangleTerms<T>& terms) noexcept {
+  if constexpr (W == NormalWeight::uniform || W == NormalWeight::angle) {
+    terms.length = square_root(terms.length);
+    terms.base = terms.base * (T(1.0f) / terms.length);
+  }
 }
 
-/// What corner k adds, given its factor.
+/// Both. Fills `terms` and returns in which lanes it may be used.
 template <NormalWeight W, class T>
+[[nodiscard, gnu::always_inline]] inline auto triangle_terms(Vec3<T> p0, Vec3<T> p1, Vec3<T> p2,
+                                                             TriangleTerms<T>& terms) noexcept {
+  const auto usual = begin_terms<W>(p0, p1, p2, terms);
+  finish_terms<W>(terms);
+  return usual;
+}
+
+/// The angles at the corners of a triangle, from the dot products there. That at the smallest one,
+/// the largest angle, is what the two others, both acute, leave of half a turn: a division and a
+/// polynomial less, and off by no more than these together, of 60 degrees or more.
+template <class T>
+[[gnu::always_inline]] inline void angles_of(T cross_length, const T (&dots)[3],
+                                             T (&angles)[3]) noexcept {
+  const auto is_first = (dots[0] <= dots[2]) & (dots[0] < dots[1]);
+  const auto is_third = (dots[2] < dots[0]) & (dots[2] < dots[1]);
+  // Rounding may leave the cosine of a right angle below 0.
+  const T a = larger(select(is_first, dots[1], dots[0]), T(0.0f));
+  const T b = larger(select(is_third, dots[1], dots[2]), T(0.0f));
+  const T before = acute_angle_of(cross_length, a);
+  const T after = acute_angle_of(cross_length, b);
+  const T largest = (T(kPi) - before) - after;
+  angles[0] = select(is_first, largest, before);
+  angles[1] = select(is_first, before, select(is_third, after, largest));
+  angles[2] = select(is_third, largest, after);
+}
+
+/// By what each corner multiplies the base, where they differ.
+template <NormalWeight W, class T>
+[[gnu::always_inline]] inline void corner_weights(const TriangleTerms<T>& terms,
+                                                  T (&weights)[3]) noexcept {
+  if constexpr (W == NormalWeight::angle) {
+    angles_of(terms.length, terms.factor, weights);
+  } else {
+    for (int k = 0; k < 3; ++k) weights[k] = T(1.0f) / terms.factor[k];
+  }
+}
+
+/// What one corner adds: the first one, the third one, or else the second.
+template <NormalWeight W, class T, class Condition>
 [[nodiscard, gnu::always_inline]] inline Vec3<T> corner_term(const TriangleTerms<T>& terms,
-                                                             T factor) noexcept {
-  if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
-    return terms.base * corner_weight<W>(terms.length, factor);
+                                                             Condition is_first,
+                                                             Condition is_third) noexcept {
+  const auto chosen = [&](const T(&of)[3]) {
+    return select(is_first, of[0], select(is_third, of[2], of[1]));
+  };
+  if constexpr (W == NormalWeight::angle) {
+    T angles[3];
+    angles_of(terms.length, terms.factor, angles);
+    return terms.base * chosen(angles);
+  } else if constexpr (W == NormalWeight::max) {
+    return terms.base * (T(1.0f) / chosen(terms.factor));
   } else {
     return terms.base;
   }

@@ -28,7 +28,7 @@ CornerBounds corner_bounds(IndexRange corners, const FaceSource& faces) noexcept
     return bounds;
   }
   const Index* first = faces.native + corners.begin;
-  return simd_path() == SimdPath::avx2 ? native_bounds_avx2(first, corners.size())
+  return has_avx2() ? native_bounds_avx2(first, corners.size())
                                        : native_bounds_scalar(first, corners.size());
 }
 

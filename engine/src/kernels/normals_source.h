@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,11 +22,16 @@ struct Points {
   }
 };
 
-/// Whether the AVX2 forms may run: the processor has it, and indices times the stride fit 32 bits.
+/// Whether the AVX2 forms may run: the processor has it, and neither the bytes of the positions nor
+/// 16 bytes a vertex take more than 32 bits to count.
 [[nodiscard]] inline bool suits_avx2(const Points& points) noexcept {
   const Positions& p = points.positions;
-  const auto floats = static_cast<std::uint64_t>(p.count) * (p.stride_bytes / sizeof(float));
-  return simd_path() == SimdPath::avx2 && floats < (std::uint64_t{1} << 31);
+  const auto bytes =
+      static_cast<std::uint64_t>(p.count) * std::max<std::size_t>(p.stride_bytes, 16);
+  return has_avx2() && bytes < (std::uint64_t{1} << 32);
+}
+[[nodiscard]] inline bool suits_avx512(const Points& points) noexcept {
+  return has_avx512() && suits_avx2(points);
 }
 
 /// The caller's faces. A corner is a number in [0, corner count), also for triangles.

@@ -30,7 +30,11 @@ template <NormalWeight W>
 inline void triangle_corners(Float3 p0, Float3 p1, Float3 p2, Float3* out) noexcept {
   TriangleTerms<float> terms;
   if (triangle_terms<W>(p0, p1, p2, terms)) [[likely]] {
-    for (int k = 0; k < 3; ++k) out[k] = corner_term<W>(terms, terms.factor[k]);
+    float weights[3] = {1, 1, 1};
+    if constexpr (W == NormalWeight::angle || W == NormalWeight::max) {
+      corner_weights<W>(terms, weights);
+    }
+    for (int k = 0; k < 3; ++k) out[k] = terms.base * weights[k];
   } else {
     for (int k = 0; k < 3; ++k) out[k] = narrow(wide_corner<W>(p0, p1, p2, k));
   }

@@ -129,8 +129,7 @@ template <NormalWeight W>
 Wide wide_corner(Float3 p0, Float3 p1, Float3 p2, int k) noexcept {
   TriangleTerms<float> terms;
   if (triangle_terms<W>(p0, p1, p2, terms)) {
-    if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) return {terms.base, 0};
-    return {corner_term<W>(terms, terms.factor[k]), 0};
+    return {corner_term<W>(terms, k == 0, k == 2), 0};
   }
   if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) {
     return triangle_vector(p0, p1, p2, W == NormalWeight::uniform);

@@ -76,7 +76,7 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 
 NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                         Index& again_count) noexcept {
-  return simd_path() == SimdPath::avx2 ? finish_sums_avx2(block, writer, again_count)
+  return has_avx2() ? finish_sums_avx2(block, writer, again_count)
                                        : finish_sums_scalar(block, writer, again_count);
 }
 

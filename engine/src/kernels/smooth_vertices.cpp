@@ -151,7 +151,7 @@ void smooth(IndexRange range, const Mesh& mesh, const SmoothStep& step,
     return;
   }
   if constexpr (std::is_same_v<Mesh, TriangleView>) {
-    if (simd_path() == SimdPath::avx2) return smooth_groups(range, mesh, step);
+    if (has_avx2()) return smooth_groups(range, mesh, step);
   }
   smooth_each<SmoothWeights::umbrella>(range, mesh, step);
 }

@@ -21,12 +21,17 @@ void for_each_row(const Triangles& triangles, const Points& points, const Visit&
 
 void fill_term_rows(const Triangles& triangles, const Points& points, NormalWeight weight,
                     TermRow* rows) noexcept {
-  const auto fill = suits_avx2(points) ? fill_term_rows_avx2 : fill_term_rows_sse;
+  const auto fill = suits_avx512(points) ? fill_term_rows_avx512
+                    : suits_avx2(points) ? fill_term_rows_avx2
+                                         : fill_term_rows_sse;
   fill(triangles, points, weight, rows);
 }
 
 void add_terms(const Triangles& triangles, const TermSums& to) noexcept {
-  suits_avx2(to.points) ? add_terms_avx2(triangles, to) : add_terms_sse(triangles, to);
+  const auto add = suits_avx512(to.points) ? add_terms_avx512
+                   : suits_avx2(to.points) ? add_terms_avx2
+                                           : add_terms_sse;
+  add(triangles, to);
 }
 
 void fill_term_rows_scalar(const Triangles& triangles, const Points& points, NormalWeight weight,

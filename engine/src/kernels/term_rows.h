@@ -63,8 +63,9 @@ struct TermSums {
 /// Adds what each corner in the block adds to its sum there, in ascending corner order.
 void add_terms(const Triangles& triangles, const TermSums& to) noexcept;
 
-/// The forms of both: the plain one; and four and eight triangles at a time. Where the build
-/// cannot, the next narrower one. \pre of the last: `suits_avx2(points)`
+/// The forms of both: the plain one; and four, eight and sixteen triangles at a time. Where the
+/// build cannot, the next narrower one. \pre of the last two: `suits_avx2(points)`,
+/// `suits_avx512(points)`
 void fill_term_rows_scalar(const Triangles& triangles, const Points& points, NormalWeight weight,
                            TermRow* rows) noexcept;
 void fill_term_rows_sse(const Triangles& triangles, const Points& points, NormalWeight weight,
@@ -74,5 +75,8 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
 void add_terms_scalar(const Triangles& triangles, const TermSums& to) noexcept;
 void add_terms_sse(const Triangles& triangles, const TermSums& to) noexcept;
 void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept;
+void fill_term_rows_avx512(const Triangles& triangles, const Points& points, NormalWeight weight,
+                           TermRow* rows) noexcept;
+void add_terms_avx512(const Triangles& triangles, const TermSums& to) noexcept;
 
 }  // namespace hedgerow::kernels

@@ -2,7 +2,7 @@
 
 #include "kernels/normals_avx2.h"
 #include "kernels/term_groups.h"
-#include "kernels/weighed_terms_avx2.h"
+#include "kernels/weighed_terms.h"
 
 namespace hedgerow::kernels {
 
@@ -41,8 +41,10 @@ struct Groups8 {
     loader.load(corners, p);
     TriangleTerms<Float8> terms;
     const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
+    Float8 weights[3];
+    if constexpr (rows_of(W) == 3) corner_weights<W>(terms, weights);
     for (int k = 0; k < rows_of(W); ++k) {
-      const Rows8 eight = to_rows(corner_term<W>(terms, terms.factor[k]), 1);
+      const Rows8 eight = to_rows(rows_of(W) == 1 ? terms.base : terms.base * weights[k], 1);
       for (int i = 0; i < kSize; ++i) rows[i * rows_of(W) + k] = eight.row[i];
     }
     return usual.lanes() == 0xff;
@@ -74,60 +76,6 @@ struct Groups8 {
   }
 };
 
-// Calls group(i, triangles, terms) for eight triangles from triangle i on, and rest(i, triangles)
-// for those that need the narrower form.
-template <class Terms, class Group, class Rest>
-void for_each_weighed(const Triangles& triangles, Terms& terms, const Group& group,
-                      const Rest& rest) noexcept {
-  constexpr Index kGroup = Terms::kGroup;
-  for (Index begin = 0; begin < triangles.count; begin += Terms::kMost) {
-    const Triangles part = triangles.part(begin, Terms::kMost);
-    const Index whole = terms.find(part);
-    for (Index i = 0; i < whole; i += kGroup) {
-      if (terms.is_usual(i)) [[likely]] {
-        group(begin + i, i);
-      } else {
-        rest(begin + i, part.part(i, kGroup));
-      }
-    }
-    if (whole < part.count) rest(begin + whole, part.part(whole, kGroup));
-  }
-}
-
-template <NormalWeight W, class Loader>
-void fill_weighed(const Triangles& triangles, const Points& points, const Loader& loader,
-                  TermRow* out) noexcept {
-  WeighedTerms<W, Loader> terms(loader);
-  const auto place = [out](Index i) { return out + 3 * static_cast<std::ptrdiff_t>(i); };
-  for_each_weighed(
-      triangles, terms,
-      [&](Index triangle, Index i) {
-        auto* to = reinterpret_cast<float*>(place(triangle));
-        for (Index end = i + terms.kGroup; i < end; ++i) {
-          for (int k = 0; k < 3; ++k, to += 4) _mm_store_ps(to, terms.row(i, k));
-        }
-      },
-      [&](Index triangle, const Triangles& few) {
-        fill_term_rows_sse(few, points, W, place(triangle));
-      });
-}
-
-// \pre `to.is_inside`
-template <NormalWeight W, class Loader>
-void add_weighed(const Triangles& triangles, const TermSums& to, const Loader& loader) noexcept {
-  WeighedTerms<W, Loader> terms(loader);
-  const SumsById sums(to.block);
-  for_each_weighed(
-      triangles, terms,
-      [&](Index triangle, Index i) {
-        const Index* corner = triangles.corners + 3 * static_cast<std::ptrdiff_t>(triangle);
-        for (Index end = i + terms.kGroup; i < end; ++i) {
-          for (int k = 0; k < 3; ++k) add_row(sums[*corner++], terms.row(i, k));
-        }
-      },
-      [&](Index, const Triangles& few) { add_terms_sse(few, to); });
-}
-
 }  // namespace
 
 void fill_term_rows_avx2(const Triangles& triangles, const Points& points, NormalWeight weight,
@@ -135,7 +83,9 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
   with_weight(weight, [&](auto w) {
     with_loader(points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
-        fill_weighed<w()>(triangles, points, loader, rows);
+        fill_weighed<w()>(triangles, loader, rows, [&](const Triangles& few, TermRow* to) {
+          fill_term_rows_sse(few, points, w(), to);
+        });
       } else {
         fill_groups(triangles, points, Groups8<w(), Loader>{loader}, rows);
       }
@@ -147,7 +97,10 @@ void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
     with_loader(to.points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
-        if (to.is_inside) return add_weighed<w()>(triangles, to, loader);
+        if (to.is_inside) {
+          return add_weighed<w()>(triangles, loader, SumsById(to.block),
+                                  [&](const Triangles& few) { add_terms_sse(few, to); });
+        }
       }
       add_all_groups(triangles, to, Groups8<w(), Loader>{loader});
     });

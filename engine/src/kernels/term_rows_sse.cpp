@@ -32,8 +32,10 @@ struct Groups4 {
     const Mask4 usual =
         triangle_terms<W>(load_points(points, corners, 3), load_points(points, corners + 1, 3),
                           load_points(points, corners + 2, 3), terms);
+    Float4 weights[3];
+    if constexpr (rows_of(W) == 3) corner_weights<W>(terms, weights);
     for (int k = 0; k < rows_of(W); ++k) {
-      const Rows four = to_rows(corner_term<W>(terms, terms.factor[k]), 1);
+      const Rows four = to_rows(rows_of(W) == 1 ? terms.base : terms.base * weights[k], 1);
       for (int i = 0; i < kSize; ++i) rows[i * rows_of(W) + k] = four.row[i];
     }
     return usual.lanes() == 15;
