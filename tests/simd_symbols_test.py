@@ -11,29 +11,33 @@ import subprocess
 import sys
 
 
-def strays(nm, path):
+WIDTHS = ("_avx2", "_avx512")  # in the names of sources and of what they define
+
+
+def strays(nm, path, width):
     """The names in one object that others could link to and that are not entry points."""
     text = subprocess.run([nm, "--defined-only", "--extern-only", "-C", path], check=True,
                           capture_output=True, text=True).stdout
     names = [line.split(maxsplit=2)[2] for line in text.splitlines()]
-    return [name for name in names if "_avx2" not in name and not name.startswith("DW.ref.")]
+    return [name for name in names if width not in name and not name.startswith("DW.ref.")]
 
 
 def main(nm, folder):
-    objects = sorted(pathlib.Path(folder).rglob("*_avx2.cpp.o"))
-    if not objects:
-        sys.exit(f"no object *_avx2.cpp.o below {folder}")
+    objects = {width: sorted(pathlib.Path(folder).rglob(f"*{width}.cpp.o")) for width in WIDTHS}
+    for width, paths in objects.items():
+        if not paths:
+            sys.exit(f"no object *{width}.cpp.o below {folder}")
     # Whether that is the object of one file or of several compiled as one.
-    plain = (path for path in pathlib.Path(folder).rglob("*.o") if path not in objects)
-    if not any(strays(nm, path) for path in plain):
-        sys.exit("the check finds nothing in an object that has other names")
-    failed = False
-    for path in objects:
-        for name in strays(nm, path):
-            print(f"{path.name} defines {name}")
-            failed = True
-    print(f"{len(objects)} objects looked at")
-    sys.exit(1 if failed else 0)
+    wide = sum(objects.values(), [])
+    plain = [path for path in pathlib.Path(folder).rglob("*.o") if path not in wide]
+    for width in WIDTHS:
+        if not any(strays(nm, path, width) for path in plain):
+            sys.exit("the check finds nothing in an object that has other names")
+    found = [f"{path.name} defines {name}"
+             for width, paths in objects.items() for path in paths
+             for name in strays(nm, path, width)]
+    print(*found, f"{len(wide)} objects looked at", sep="\n")
+    sys.exit(1 if found else 0)
 
 
 if __name__ == "__main__":

@@ -98,11 +98,12 @@ NormalStats gather(IndexRange range, const View& mesh, const GatherInput& input,
 }
 
 // Bit i: vertex first + i has one fan at the most. `fan` is moved to the first entry not before it.
-unsigned with_one_fan(Index first, FanTable fans, FanTable::iterator& fan) noexcept {
+std::uint64_t with_one_fan(Index first, Index size, FanTable fans,
+                           FanTable::iterator& fan) noexcept {
   while (fan != fans.end() && fan->vertex.value < first) ++fan;
-  unsigned wanted = kWholeGroup;
-  for (; fan != fans.end() && fan->vertex.value < first + kGroupSize; ++fan) {
-    wanted &= ~(1U << (fan->vertex.value - first));
+  std::uint64_t wanted = whole_group(size);
+  for (; fan != fans.end() && fan->vertex.value < first + size; ++fan) {
+    wanted &= ~(std::uint64_t{1} << (fan->vertex.value - first));
   }
   return wanted;
 }
@@ -116,13 +117,16 @@ NormalStats gather_groups(decltype(gather_group_plain<W>) group, IndexRange rang
       mesh.fans.begin(), mesh.fans.end(), range.begin,
       [](const FanStart& start, Index vertex) { return start.vertex.value < vertex; });
   Index i = range.begin;
-  for (; i + kGroupSize <= range.end; i += kGroupSize) {
-    const unsigned wanted = with_one_fan(i, mesh.fans, fan);
-    unsigned left = group(i, wanted, mesh, input, window, writer) | (kWholeGroup & ~wanted);
+  while (range.end - i >= kSmallGroup) {
+    const Index size = range.end - i >= kLargeGroup ? kLargeGroup : kSmallGroup;
+    const std::uint64_t wanted = with_one_fan(i, size, mesh.fans, fan);
+    std::uint64_t left =
+        group(i, size, wanted, mesh, input, window, writer) | (whole_group(size) & ~wanted);
     for (; left != 0; left &= left - 1) {
       gather_one<W>(VertexId(i + std::countr_zero(left)), mesh, input, spill, window, writer,
                     stats);
     }
+    i += size;
   }
   return merge(stats, gather<W>({i, range.end}, mesh, input, spill, window, writer));
 }
@@ -139,25 +143,25 @@ NormalStats gather_each(const Index* ids, Index count, const View& mesh, const G
 }
 
 // Bit i: vertex ids[i] has one fan at the most.
-unsigned with_one_fan(const Index* ids, FanTable fans) noexcept {
-  if (fans.empty()) return kWholeGroup;
-  unsigned wanted = 0;
-  for (int i = 0; i < static_cast<int>(kGroupSize); ++i) {
-    wanted |= static_cast<unsigned>(extra_fans(fans, VertexId(ids[i])).empty()) << i;
+std::uint64_t with_one_fan(const Index* ids, FanTable fans) noexcept {
+  if (fans.empty()) return whole_group(kSmallGroup);
+  std::uint64_t wanted = 0;
+  for (int i = 0; i < static_cast<int>(kSmallGroup); ++i) {
+    wanted |= std::uint64_t{extra_fans(fans, VertexId(ids[i])).empty()} << i;
   }
   return wanted;
 }
 
 template <NormalWeight W>
-NormalStats gather_listed(const Index* ids, Index count, const TriangleView& mesh,
-                          const GatherInput& input, IndexSet& spill,
+NormalStats gather_listed(decltype(gather_listed_avx2<W>) group, const Index* ids, Index count,
+                          const TriangleView& mesh, const GatherInput& input, IndexSet& spill,
                           const NormalWriter& writer) noexcept {
   NormalStats stats;
   TermWindow none;
-  for (; count >= kGroupSize; ids += kGroupSize, count -= kGroupSize) {
-    const unsigned wanted = with_one_fan(ids, mesh.fans);
-    unsigned left =
-        gather_listed_avx2<W>(ids, wanted, mesh, input, writer) | (kWholeGroup & ~wanted);
+  for (; count >= kSmallGroup; ids += kSmallGroup, count -= kSmallGroup) {
+    const std::uint64_t wanted = with_one_fan(ids, mesh.fans);
+    std::uint64_t left =
+        group(ids, wanted, mesh, input, writer) | (whole_group(kSmallGroup) & ~wanted);
     for (; left != 0; left &= left - 1) {
       const VertexId v(ids[std::countr_zero(left)]);
       gather_one<W>(v, mesh, input, spill, none, writer, stats);
@@ -197,7 +201,9 @@ NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const Gat
                            IndexSet& spill, TermWindow& window,
                            const NormalWriter& writer) noexcept {
   return with_weight(input.weight, [&](auto w) {
-    const auto group = suits_avx2(input.points) ? gather_group_avx2<w()> : gather_group_plain<w()>;
+    const auto group = suits_avx512(input.points) ? gather_group_avx512<w()>
+                       : suits_avx2(input.points) ? gather_group_avx2<w()>
+                                                  : gather_group_plain<w()>;
     return gather_groups<w()>(group, range, mesh, input, spill, window, writer);
   });
 }
@@ -212,10 +218,13 @@ NormalStats gather_normals(IndexRange range, const PolygonView& mesh, const Gath
 NormalStats gather_normals(const Index* ids, Index count, const TriangleView& mesh,
                            const GatherInput& input, IndexSet& spill,
                            const NormalWriter& writer) noexcept {
-  const bool is_fast = suits_avx2(input.points);
   return with_weight(input.weight, [&](auto w) {
-    return is_fast ? gather_listed<w()>(ids, count, mesh, input, spill, writer)
-                   : gather_each<w()>(ids, count, mesh, input, spill, writer);
+    if (!suits_avx2(input.points)) {
+      return gather_each<w()>(ids, count, mesh, input, spill, writer);
+    }
+    const auto group =
+        suits_avx512(input.points) ? gather_listed_avx512<w()> : gather_listed_avx2<w()>;
+    return gather_listed<w()>(group, ids, count, mesh, input, spill, writer);
   });
 }
 

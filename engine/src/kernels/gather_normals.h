@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -78,31 +79,44 @@ template <NormalWeight W>
 [[nodiscard]] Float3 add_triangle_corners_sse(Float3 sum, Index* ids, Index count,
                                               const GatherInput& input) noexcept;
 
-/// Vertices handed to `gather_group_avx2` at a time.
-inline constexpr Index kGroupSize = 32;
-inline constexpr unsigned kWholeGroup = ~0U >> (32 - kGroupSize);  // a bit for each
+/// Vertices handed to a group form at a time: as many as the first where there are so many.
+inline constexpr Index kLargeGroup = 64;
+inline constexpr Index kSmallGroup = 32;
+[[nodiscard]] constexpr std::uint64_t whole_group(Index size) noexcept {
+  return ~std::uint64_t{0} >> (64 - size);  // a bit for each
+}
 
-/// Writes the normals of those of the kGroupSize vertices from `first` on whose bit is set in
-/// `wanted`; returns the bits of those that it left to the plain form: vertices with many corners,
-/// with a corner outside the usual range, or without a direction. All of them where the build has
-/// no AVX2.
-/// \pre the processor has AVX2, and indices are 32 bits wide; see `simd_path`. Wanted vertices have
-///      one fan at the most. Positions lie within 2^31 floats.
+/// Writes the normals of those of the `size` vertices from `first` on whose bit is set in `wanted`;
+/// returns the bits of those that it left to the plain form: vertices with many corners, with a
+/// corner outside the usual range, or without a direction. All of them where the build cannot.
+/// \pre `size` is one of the two above. `suits_avx2(input.points)`, `suits_avx512`. Wanted vertices
+///      have one fan at the most.
 template <NormalWeight W>
-[[nodiscard]] unsigned gather_group_avx2(Index first, unsigned wanted, const TriangleView& mesh,
-                                         const GatherInput& input, TermWindow& window,
-                                         const NormalWriter& writer) noexcept;
+[[nodiscard]] std::uint64_t gather_group_avx2(Index first, Index size, std::uint64_t wanted,
+                                              const TriangleView& mesh, const GatherInput& input,
+                                              TermWindow& window,
+                                              const NormalWriter& writer) noexcept;
+template <NormalWeight W>
+[[nodiscard]] std::uint64_t gather_group_avx512(Index first, Index size, std::uint64_t wanted,
+                                                const TriangleView& mesh, const GatherInput& input,
+                                                TermWindow& window,
+                                                const NormalWriter& writer) noexcept;
 
 /// The plain form.
 template <NormalWeight W>
-[[nodiscard]] unsigned gather_group_plain(Index first, unsigned wanted, const TriangleView& mesh,
-                                          const GatherInput& input, TermWindow& window,
-                                          const NormalWriter& writer) noexcept;
+[[nodiscard]] std::uint64_t gather_group_plain(Index first, Index size, std::uint64_t wanted,
+                                               const TriangleView& mesh, const GatherInput& input,
+                                               TermWindow& window,
+                                               const NormalWriter& writer) noexcept;
 
-/// The same for kGroupSize vertices by their ids.
+/// The same for kSmallGroup vertices by their ids.
 template <NormalWeight W>
-[[nodiscard]] unsigned gather_listed_avx2(const Index* ids, unsigned wanted,
-                                          const TriangleView& mesh, const GatherInput& input,
-                                          const NormalWriter& writer) noexcept;
+[[nodiscard]] std::uint64_t gather_listed_avx2(const Index* ids, std::uint64_t wanted,
+                                               const TriangleView& mesh, const GatherInput& input,
+                                               const NormalWriter& writer) noexcept;
+template <NormalWeight W>
+[[nodiscard]] std::uint64_t gather_listed_avx512(const Index* ids, std::uint64_t wanted,
+                                                 const TriangleView& mesh, const GatherInput& input,
+                                                 const NormalWriter& writer) noexcept;
 
 }  // namespace hedgerow::kernels

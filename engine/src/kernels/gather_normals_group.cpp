@@ -75,16 +75,16 @@ void sort_lanes(Lanes (&corner)[kMostCorners]) noexcept {
 }  // namespace
 
 template <NormalWeight W>
-unsigned gather_group_plain(Index first, unsigned wanted, const TriangleView& mesh,
-                            const GatherInput& input, TermWindow& window,
-                            const NormalWriter& writer) noexcept {
-  unsigned left = 0;
-  for (int begin = 0; begin < static_cast<int>(kGroupSize); begin += kLanes) {
+std::uint64_t gather_group_plain(Index first, Index size, std::uint64_t wanted,
+                                 const TriangleView& mesh, const GatherInput& input,
+                                 TermWindow& window, const NormalWriter& writer) noexcept {
+  std::uint64_t left = 0;
+  for (int begin = 0; begin < static_cast<int>(size); begin += kLanes) {
     alignas(64) Lanes corner[kMostCorners];
     const unsigned more = walk(first + begin, mesh, corner);
     sort_lanes(corner);
     for (int i = 0; i < kLanes; ++i) {
-      const unsigned bit = 1U << (begin + i);
+      const std::uint64_t bit = std::uint64_t{1} << (begin + i);
       if ((wanted & bit) == 0) continue;
       Index ids[kMostCorners + 3];  // three more, for the last group of four
       Index* end = ids;
@@ -106,17 +106,21 @@ unsigned gather_group_plain(Index first, unsigned wanted, const TriangleView& me
   return left;
 }
 
-template unsigned gather_group_plain<NormalWeight::uniform>(Index, unsigned, const TriangleView&,
-                                                            const GatherInput&, TermWindow&,
-                                                            const NormalWriter&) noexcept;
-template unsigned gather_group_plain<NormalWeight::area>(Index, unsigned, const TriangleView&,
-                                                         const GatherInput&, TermWindow&,
-                                                         const NormalWriter&) noexcept;
-template unsigned gather_group_plain<NormalWeight::angle>(Index, unsigned, const TriangleView&,
-                                                          const GatherInput&, TermWindow&,
-                                                          const NormalWriter&) noexcept;
-template unsigned gather_group_plain<NormalWeight::max>(Index, unsigned, const TriangleView&,
-                                                        const GatherInput&, TermWindow&,
-                                                        const NormalWriter&) noexcept;
+template std::uint64_t gather_group_plain<NormalWeight::uniform>(Index, Index, std::uint64_t,
+                                                                 const TriangleView&,
+                                                                 const GatherInput&, TermWindow&,
+                                                                 const NormalWriter&) noexcept;
+template std::uint64_t gather_group_plain<NormalWeight::area>(Index, Index, std::uint64_t,
+                                                              const TriangleView&,
+                                                              const GatherInput&, TermWindow&,
+                                                              const NormalWriter&) noexcept;
+template std::uint64_t gather_group_plain<NormalWeight::angle>(Index, Index, std::uint64_t,
+                                                               const TriangleView&,
+                                                               const GatherInput&, TermWindow&,
+                                                               const NormalWriter&) noexcept;
+template std::uint64_t gather_group_plain<NormalWeight::max>(Index, Index, std::uint64_t,
+                                                             const TriangleView&,
+                                                             const GatherInput&, TermWindow&,
+                                                             const NormalWriter&) noexcept;
 
 }  // namespace hedgerow::kernels

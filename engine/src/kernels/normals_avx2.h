@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/index_lanes.h"
 #include "kernels/normals_source.h"
 
 #if defined(__AVX2__)
@@ -139,10 +140,10 @@ class TriangleLoader {
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
   /// triangle of `corners` may be named; behind the last there is nothing to read.
-  [[gnu::always_inline]] void load(const Index* corners, __m256i firsts,
+  [[gnu::always_inline]] void load(const Index* corners, Int8 firsts,
                                    Vec3<Float8> (&p)[3]) const noexcept {
     alignas(32) int first[8];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(first), firsts);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(first), firsts.bits);
     // Keeps the compiler from taking the lanes out of the vector one by one, at twice the work.
     asm volatile("" : "+m"(first));
     const auto quad = [&](int i) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "kernels/index_lanes.h"
 #include "kernels/normals_avx2.h"
 
 #if defined(__AVX512F__)
@@ -10,6 +11,37 @@
 /// each.
 namespace hedgerow::kernels {
 namespace {
+
+[[nodiscard]] inline __m512 joined(__m256 low, __m256 high) noexcept {
+  return _mm512_castpd_ps(
+      _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(low)), _mm256_castps_pd(high), 1));
+}
+[[nodiscard]] inline Vec3<Float16> joined(const Vec3<Float8>& low,
+                                          const Vec3<Float8>& high) noexcept {
+  return {joined(low.x.bits, high.x.bits), joined(low.y.bits, high.y.bits),
+          joined(low.z.bits, high.z.bits)};
+}
+[[nodiscard]] inline Vec3<Float8> low_half(const Vec3<Float16>& v) noexcept {
+  return {_mm512_castps512_ps256(v.x.bits), _mm512_castps512_ps256(v.y.bits),
+          _mm512_castps512_ps256(v.z.bits)};
+}
+[[nodiscard]] inline Vec3<Float8> high_half(const Vec3<Float16>& v) noexcept {
+  const auto high = [](const Float16& a) {
+    return _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(a.bits), 1));
+  };
+  return {high(v.x), high(v.y), high(v.z)};
+}
+
+/// Row j has vectors x, y, z, w of lanes j, j + 4, j + 8 and j + 12.
+[[nodiscard]] inline Vec3<Float16> to_lanes(__m512 row0, __m512 row1, __m512 row2,
+                                            __m512 row3) noexcept {
+  const __m512 xy_low = _mm512_unpacklo_ps(row0, row1);
+  const __m512 z_low = _mm512_unpackhi_ps(row0, row1);
+  const __m512 xy_high = _mm512_unpacklo_ps(row2, row3);
+  const __m512 z_high = _mm512_unpackhi_ps(row2, row3);
+  return {_mm512_shuffle_ps(xy_low, xy_high, 0x44), _mm512_shuffle_ps(xy_low, xy_high, 0xee),
+          _mm512_shuffle_ps(z_low, z_high, 0x44)};
+}
 
 /// Loads the positions of the corners of sixteen triangles into lanes, as `TriangleLoader` does of
 /// eight. \pre `suits_avx2(points)`
@@ -40,6 +72,15 @@ class TriangleLoader16 {
       p[2] = as_rows(corners + 2);
     }
   }
+  /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`; as above.
+  [[gnu::always_inline]] void load(const Index* corners, Int16 firsts,
+                                   Vec3<Float16> (&p)[3]) const noexcept {
+    Vec3<Float8> low[3];
+    Vec3<Float8> high[3];
+    eight_.load(corners, Int8(_mm512_castsi512_si256(firsts.bits)), low);
+    eight_.load(corners, Int8(_mm512_extracti64x4_epi64(firsts.bits, 1)), high);
+    for (int k = 0; k < 3; ++k) p[k] = joined(low[k], high[k]);
+  }
   /// Such lanes and `w` as rows, in the order of the triangles.
   [[gnu::always_inline]] static void store_turned(const Vec3<Float16>& v, float w,
                                                   __m128* rows) noexcept {
@@ -58,21 +99,11 @@ class TriangleLoader16 {
  private:
   // Every third of twelve corners.
   [[nodiscard, gnu::always_inline]] __m512 load_four(const Index* corners) const noexcept {
-    const __m512 low = _mm512_castps256_ps512(eight_.load_two(corners[0], corners[3]));
-    return _mm512_castpd_ps(_mm512_insertf64x4(
-        _mm512_castps_pd(low), _mm256_castps_pd(eight_.load_two(corners[6], corners[9])), 1));
+    return joined(eight_.load_two(corners[0], corners[3]), eight_.load_two(corners[6], corners[9]));
   }
   [[nodiscard, gnu::always_inline]] Vec3<Float16> as_rows(const Index* corners) const noexcept {
-    const __m512 row0 = load_four(corners);
-    const __m512 row1 = load_four(corners + 12);
-    const __m512 row2 = load_four(corners + 24);
-    const __m512 row3 = load_four(corners + 36);
-    const __m512 xy_low = _mm512_unpacklo_ps(row0, row1);
-    const __m512 z_low = _mm512_unpackhi_ps(row0, row1);
-    const __m512 xy_high = _mm512_unpacklo_ps(row2, row3);
-    const __m512 z_high = _mm512_unpackhi_ps(row2, row3);
-    return {_mm512_shuffle_ps(xy_low, xy_high, 0x44), _mm512_shuffle_ps(xy_low, xy_high, 0xee),
-            _mm512_shuffle_ps(z_low, z_high, 0x44)};
+    return to_lanes(load_four(corners), load_four(corners + 12), load_four(corners + 24),
+                    load_four(corners + 36));
   }
   [[nodiscard, gnu::noinline]] Vec3<Float16> one_by_one(const Index* corners) const noexcept {
     alignas(64) float xyz[3][16];
@@ -88,9 +119,9 @@ class TriangleLoader16 {
 
 /// Calls `function(loader)` with the one for the stride of the positions.
 template <class Function>
-inline void with_loader16(const Points& points, const Function& function) noexcept {
-  points.positions.stride_bytes == sizeof(float[3]) ? function(TriangleLoader16<3>(points))
-                                                    : function(TriangleLoader16<0>(points));
+inline decltype(auto) with_loader16(const Points& points, const Function& function) noexcept {
+  return points.positions.stride_bytes == sizeof(float[3]) ? function(TriangleLoader16<3>(points))
+                                                           : function(TriangleLoader16<0>(points));
 }
 
 }  // namespace

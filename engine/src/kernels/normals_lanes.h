@@ -90,6 +90,10 @@ struct Mask8 {
   /// Bit i: lane i.
   [[nodiscard]] int lanes() const noexcept { return _mm256_movemask_ps(bits); }
   [[nodiscard]] bool all() const noexcept { return lanes() == 0xff; }
+  [[nodiscard]] bool any() const noexcept { return _mm256_testz_ps(bits, bits) == 0; }
+  [[nodiscard]] Mask8 without(Mask8 other) const noexcept {
+    return {_mm256_andnot_ps(other.bits, bits)};
+  }
 };
 
 struct Float8 {
@@ -100,6 +104,9 @@ struct Float8 {
   Float8(__m256 value) noexcept : bits(value) {}
   // NOLINTNEXTLINE(google-explicit-constructor)
   Float8(float value) noexcept : bits(_mm256_set1_ps(value)) {}
+
+  /// \pre `p` is aligned
+  void store(float* p) const noexcept { _mm256_store_ps(p, bits); }
 
   friend Float8 operator+(Float8 a, Float8 b) noexcept { return _mm256_add_ps(a.bits, b.bits); }
   friend Float8 operator-(Float8 a, Float8 b) noexcept { return _mm256_sub_ps(a.bits, b.bits); }
@@ -149,7 +156,12 @@ struct Mask16 {
   __mmask16 bits;
 
   friend Mask16 operator&(Mask16 a, Mask16 b) noexcept { return {_kand_mask16(a.bits, b.bits)}; }
+  [[nodiscard]] int lanes() const noexcept { return bits; }
   [[nodiscard]] bool all() const noexcept { return bits == 0xffff; }
+  [[nodiscard]] bool any() const noexcept { return bits != 0; }
+  [[nodiscard]] Mask16 without(Mask16 other) const noexcept {
+    return {_kandn_mask16(other.bits, bits)};
+  }
 };
 
 struct Float16 {
@@ -160,6 +172,8 @@ struct Float16 {
   Float16(__m512 value) noexcept : bits(value) {}
   // NOLINTNEXTLINE(google-explicit-constructor)
   Float16(float value) noexcept : bits(_mm512_set1_ps(value)) {}
+
+  void store(float* p) const noexcept { _mm512_store_ps(p, bits); }
 
   friend Float16 operator+(Float16 a, Float16 b) noexcept { return _mm512_add_ps(a.bits, b.bits); }
   friend Float16 operator-(Float16 a, Float16 b) noexcept { return _mm512_sub_ps(a.bits, b.bits); }

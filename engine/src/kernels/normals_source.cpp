@@ -29,7 +29,7 @@ CornerBounds corner_bounds(IndexRange corners, const FaceSource& faces) noexcept
   }
   const Index* first = faces.native + corners.begin;
   return has_avx2() ? native_bounds_avx2(first, corners.size())
-                                       : native_bounds_scalar(first, corners.size());
+                    : native_bounds_scalar(first, corners.size());
 }
 
 // Plain minima and maxima of one integer type, which the compiler turns into vectors.

@@ -10,8 +10,10 @@ namespace hedgerow::kernels {
 
 namespace {
 
+// Of weights by which all corners of a triangle add the same.
 template <NormalWeight W, class Loader>
 struct Groups8 {
+  static_assert(rows_of(W) == 1);
   static constexpr NormalWeight kWeight = W;
   static constexpr auto fill_rest = fill_term_rows_sse;
   static constexpr auto add_rest = add_terms_sse;
@@ -41,13 +43,9 @@ struct Groups8 {
     loader.load(corners, p);
     TriangleTerms<Float8> terms;
     const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
-    Float8 weights[3];
-    if constexpr (rows_of(W) == 3) corner_weights<W>(terms, weights);
-    for (int k = 0; k < rows_of(W); ++k) {
-      const Rows8 eight = to_rows(rows_of(W) == 1 ? terms.base : terms.base * weights[k], 1);
-      for (int i = 0; i < kSize; ++i) rows[i * rows_of(W) + k] = eight.row[i];
-    }
-    return usual.lanes() == 0xff;
+    const Rows8 eight = to_rows(terms.base, 1);
+    for (int i = 0; i < kSize; ++i) rows[i] = eight.row[i];
+    return usual.all();
   }
 
   // Area vectors are crossed as rows, as positions lie in memory: to turn them into lanes and back
@@ -97,12 +95,11 @@ void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
     with_loader(to.points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
-        if (to.is_inside) {
-          return add_weighed<w()>(triangles, loader, SumsById(to.block),
-                                  [&](const Triangles& few) { add_terms_sse(few, to); });
-        }
+        add_all_weighed<w()>(triangles, to, loader,
+                             [&](const Triangles& few) { add_terms_sse(few, to); });
+      } else {
+        add_all_groups(triangles, to, Groups8<w(), Loader>{loader});
       }
-      add_all_groups(triangles, to, Groups8<w(), Loader>{loader});
     });
   });
 }

@@ -25,14 +25,13 @@ void fill_term_rows_avx512(const Triangles& triangles, const Points& points, Nor
 void add_terms_avx512(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
     if constexpr (rows_of(w()) == 3) {
-      if (to.is_inside) {
-        return with_loader16(to.points, [&](const auto& loader) {
-          add_weighed<w()>(triangles, loader, SumsById(to.block),
-                           [&](const Triangles& few) { add_terms_avx2(few, to); });
-        });
-      }
+      with_loader16(to.points, [&](const auto& loader) {
+        add_all_weighed<w()>(triangles, to, loader,
+                             [&](const Triangles& few) { add_terms_avx2(few, to); });
+      });
+    } else {
+      add_terms_avx2(triangles, to);
     }
-    add_terms_avx2(triangles, to);
   });
 }
 

@@ -126,22 +126,46 @@ void fill_weighed(const Triangles& triangles, const Loader& loader, TermRow* out
       [&](Index triangle, const Triangles& few) { rest(few, place(triangle)); });
 }
 
-// \pre all corners are in the block of `sums`
-template <NormalWeight W, class Loader, class Sums, class Rest>
-void add_weighed(const Triangles& triangles, const Loader& loader, const Sums& sums,
+// Whether a corner of these triangles is in the block.
+[[nodiscard]] inline bool touches(const Triangles& triangles, const SumBlock& block) noexcept {
+  bool any = false;
+  for (Index c = 0; c < 3 * triangles.count; ++c) any |= block.holds(triangles.corners[c]);
+  return any;
+}
+
+template <NormalWeight W, bool kInside, class Loader, class Rest>
+void add_weighed(const Triangles& triangles, const SumBlock& block, const Loader& loader,
                  const Rest& rest) noexcept {
   using Terms = WeighedTerms<W, Loader>;
   Terms terms(loader);
-  for_each_weighed(
-      triangles, terms,
-      [&](Index triangle, Index i) {
-        const Index* corner = triangles.corners + 3 * static_cast<std::ptrdiff_t>(triangle);
+  const SumsById sums(block);
+  const auto add = [&](Index triangle, Index i) {
+    const Index* corner = triangles.corners + 3 * static_cast<std::ptrdiff_t>(triangle);
 #pragma GCC unroll 4
-        for (Index j = 0; j < Terms::kGroup; ++j, corner += 3) {
-          terms.for_each_row(i + j, [&](int k, __m128 row) { add_row(sums[corner[k]], row); });
-        }
-      },
-      [&](Index, const Triangles& few) { rest(few); });
+    for (Index j = 0; j < Terms::kGroup; ++j, corner += 3) {
+      terms.for_each_row(i + j, [&](int k, __m128 row) {
+        if (kInside || block.holds(corner[k])) add_row(sums[corner[k]], row);
+      });
+    }
+  };
+  if constexpr (kInside) {
+    for_each_weighed(triangles, terms, add, [&](Index, const Triangles& few) { rest(few); });
+  } else {
+    for (Index begin = 0; begin < triangles.count; begin += Terms::kMost) {
+      const Triangles part = triangles.part(begin, Terms::kMost);
+      if (!touches(part, block)) continue;
+      for_each_weighed(
+          part, terms, [&](Index triangle, Index i) { add(begin + triangle, i); },
+          [&](Index, const Triangles& few) { rest(few); });
+    }
+  }
+}
+
+template <NormalWeight W, class Loader, class Rest>
+void add_all_weighed(const Triangles& triangles, const TermSums& to, const Loader& loader,
+                     const Rest& rest) noexcept {
+  to.is_inside ? add_weighed<W, true>(triangles, to.block, loader, rest)
+               : add_weighed<W, false>(triangles, to.block, loader, rest);
 }
 
 }  // namespace
