@@ -21,7 +21,9 @@ NormalStats face_normals(IndexRange range, const FaceSource& faces, const Points
                          PolygonMethod method, const NormalWriter& writer) noexcept {
   NormalStats stats;
   if (faces.is_triangles()) {
-    const auto kernel = suits_avx2(points) ? triangle_normals_avx2 : triangle_normals_sse;
+    const auto kernel = suits_avx512(points) ? triangle_normals_avx512
+                        : suits_avx2(points) ? triangle_normals_avx2
+                                             : triangle_normals_sse;
     for_each_packed(range, faces, [&](IndexRange piece, const Index* corners) {
       stats = merge(stats, kernel(piece, corners, points, writer));
     });

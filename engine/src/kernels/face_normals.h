@@ -18,9 +18,13 @@ namespace hedgerow::kernels {
                                                const Points& points,
                                                const NormalWriter& writer) noexcept;
 
-/// Eight at a time. \pre `suits_avx2(points)`
+/// Eight and sixteen at a time; where the build cannot, a narrower form. \pre `suits_avx2(points)`,
+/// `suits_avx512(points)`
 [[nodiscard]] NormalStats triangle_normals_avx2(IndexRange range, const Index* corners,
                                                 const Points& points,
                                                 const NormalWriter& writer) noexcept;
+[[nodiscard]] NormalStats triangle_normals_avx512(IndexRange range, const Index* corners,
+                                                  const Points& points,
+                                                  const NormalWriter& writer) noexcept;
 
 }  // namespace hedgerow::kernels

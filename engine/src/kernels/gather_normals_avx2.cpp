@@ -18,9 +18,6 @@ struct Lanes8 {
     };
     return to_lanes(pair(0), pair(1), pair(2), pair(3));
   }
-  static void write(const Writer8& writer8, Index first, const Vec3<Float8>& units) noexcept {
-    writer8.write(first, units);
-  }
 };
 constexpr int kGroups = kSmallGroup / Int8::kLanes;  // walk at once: more do not fit the registers
 

@@ -20,10 +20,6 @@ struct Lanes16 {
     };
     return to_lanes(four(0), four(1), four(2), four(3));
   }
-  static void write(const Writer8& writer8, Index first, const Vec3<Float16>& units) noexcept {
-    writer8.write(first, low_half(units));
-    writer8.write(first + 8, high_half(units));
-  }
 };
 
 }  // namespace

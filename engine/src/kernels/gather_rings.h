@@ -17,7 +17,6 @@
 ///
 ///   using Int, Float                                   of so many lanes; masks are `Int::Mask`
 ///   static Vec3<Float> from_rows(const __m128*)        rows x, y, z, w as lanes
-///   static void write(const Writer8&, Index first, const Vec3<Float>&)
 ///
 /// Local to each source, as those are compiled for different processors.
 namespace hedgerow::kernels {
@@ -220,7 +219,7 @@ unsigned write_units(const Place& place, int g, const Vec3<typename Lanes::Float
   const Vec3<Float> unit = sum * (Float(1.0f) / square_root(square));
   if constexpr (std::is_same_v<Place, InRow>) {
     if (good == (1U << kLanes) - 1) [[likely]] {
-      Lanes::write(writer8, place.vertex(g * kLanes), unit);
+      write(writer8, place.vertex(g * kLanes), unit);
       return 0;
     }
   }

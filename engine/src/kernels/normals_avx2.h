@@ -76,15 +76,17 @@ class TriangleLoader {
         last_(_mm256_set1_epi32(static_cast<int>(points.positions.count) - 1)) {}
 
   /// Asks for what groups further on will take, the last of which is `left` indices ahead:
-  /// hardware prefetchers know neither which positions come next nor what lies beyond a page. One
-  /// triangle of a group stands for all of it. (Inlined by force, since gcc 12 takes a function
+  /// hardware prefetchers know neither which positions come next nor what lies beyond a page. A
+  /// few corners of a group stand for all of it. (Inlined by force, since gcc 12 takes a function
   /// that only prefetches for one that does nothing.)
+  template <Index kTriangles = 8>
   [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
     const Index* far = corners + std::min<std::ptrdiff_t>(left, 24 * kIndexGroupsAhead);
-    _mm_prefetch(reinterpret_cast<const char*>(far), _MM_HINT_T0);
-    _mm_prefetch(reinterpret_cast<const char*>(far + 16), _MM_HINT_T0);
+    for (Index i = 0; i < 3 * kTriangles; i += 16) {
+      _mm_prefetch(reinterpret_cast<const char*>(far + i), _MM_HINT_T0);
+    }
     const Index* near = corners + std::min<std::ptrdiff_t>(left, 24 * kPointGroupsAhead);
-    for (int k = 0; k < 3; ++k) {
+    for (Index k = 0; k < 3 * kTriangles; k += kCornerStep) {
       _mm_prefetch(reinterpret_cast<const char*>(at(near[k])), _MM_HINT_T0);
     }
   }
@@ -158,6 +160,7 @@ class TriangleLoader {
  private:
   static constexpr std::ptrdiff_t kIndexGroupsAhead = 64;
   static constexpr std::ptrdiff_t kPointGroupsAhead = 16;
+  static constexpr Index kCornerStep = 11;  // no multiple of 3: first, third, second corners
 
   // One lane has the largest of 24.
   [[nodiscard]] static __m256i largest_of(const Index* corners) noexcept {
@@ -283,6 +286,10 @@ class Writer8 {
   const NormalWriter& writer_;
   Way way_;
 };
+
+inline void write(const Writer8& writer8, Index first, const Vec3<Float8>& units) noexcept {
+  writer8.write(first, units);
+}
 
 }  // namespace
 }  // namespace hedgerow::kernels

@@ -43,6 +43,11 @@ namespace {
           _mm512_shuffle_ps(z_low, z_high, 0x44)};
 }
 
+inline void write(const Writer8& writer8, Index first, const Vec3<Float16>& units) noexcept {
+  writer8.write(first, low_half(units));
+  writer8.write(first + 8, high_half(units));
+}
+
 /// Loads the positions of the corners of sixteen triangles into lanes, as `TriangleLoader` does of
 /// eight. \pre `suits_avx2(points)`
 template <std::size_t kFloats>
@@ -54,23 +59,22 @@ class TriangleLoader16 {
   explicit TriangleLoader16(const Points& points) noexcept : eight_(points) {}
 
   [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
-    eight_.prefetch(corners, left);
-    eight_.prefetch(corners + 24, left);
+    eight_.template prefetch<kLanes>(corners, left);
   }
 
+  /// Lane i of p[k] is at corners[3 i + k].
+  [[gnu::always_inline]] void load(const Index* corners, Vec3<Float16> (&p)[3]) const noexcept {
+    const auto corner = [corners](int i, int k) -> const Index& { return corners[3 * i + k]; };
+    load(corner, has_last(corners), p);
+  }
   /// Lane i has triangle 4 (i mod 4) + i / 4, so that the four parts of a row are triangles in a
   /// row.
   [[gnu::always_inline]] void load_turned(const Index* corners,
                                           Vec3<Float16> (&p)[3]) const noexcept {
-    if (eight_.has_last(corners) || eight_.has_last(corners + 24)) [[unlikely]] {
-      p[0] = one_by_one(corners);
-      p[1] = one_by_one(corners + 1);
-      p[2] = one_by_one(corners + 2);
-    } else {
-      p[0] = as_rows(corners);
-      p[1] = as_rows(corners + 1);
-      p[2] = as_rows(corners + 2);
-    }
+    const auto corner = [corners](int i, int k) -> const Index& {
+      return corners[3 * (4 * (i % 4) + i / 4) + k];
+    };
+    load(corner, has_last(corners), p);
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`; as above.
   [[gnu::always_inline]] void load(const Index* corners, Int16 firsts,
@@ -97,18 +101,39 @@ class TriangleLoader16 {
   }
 
  private:
-  // Every third of twelve corners.
-  [[nodiscard, gnu::always_inline]] __m512 load_four(const Index* corners) const noexcept {
-    return joined(eight_.load_two(corners[0], corners[3]), eight_.load_two(corners[6], corners[9]));
+  [[nodiscard]] bool has_last(const Index* corners) const noexcept {
+    return eight_.has_last(corners) || eight_.has_last(corners + 24);
   }
-  [[nodiscard, gnu::always_inline]] Vec3<Float16> as_rows(const Index* corners) const noexcept {
-    return to_lanes(load_four(corners), load_four(corners + 12), load_four(corners + 24),
-                    load_four(corners + 36));
+
+  // As in `TriangleLoader`.
+  template <class Corner>
+  [[gnu::always_inline]] void load(const Corner& corner, bool has_last,
+                                   Vec3<Float16> (&p)[3]) const noexcept {
+    if (has_last) [[unlikely]] {
+      p[0] = one_by_one(corner, 0);
+      p[1] = one_by_one(corner, 1);
+      p[2] = one_by_one(corner, 2);
+    } else {
+      p[0] = as_rows(corner, 0);
+      p[1] = as_rows(corner, 1);
+      p[2] = as_rows(corner, 2);
+    }
   }
-  [[nodiscard, gnu::noinline]] Vec3<Float16> one_by_one(const Index* corners) const noexcept {
+  template <class Corner>
+  [[nodiscard, gnu::always_inline]] Vec3<Float16> as_rows(const Corner& corner,
+                                                          int k) const noexcept {
+    const auto four = [&](int i) {
+      return joined(eight_.load_two(corner(i, k), corner(i + 4, k)),
+                    eight_.load_two(corner(i + 8, k), corner(i + 12, k)));
+    };
+    return to_lanes(four(0), four(1), four(2), four(3));
+  }
+  template <class Corner>
+  [[nodiscard, gnu::noinline]] Vec3<Float16> one_by_one(const Corner& corner,
+                                                        int k) const noexcept {
     alignas(64) float xyz[3][16];
     for (int i = 0; i < 16; ++i) {
-      const float* p = eight_.at(corners[3 * (4 * (i % 4) + i / 4)]);
+      const float* p = eight_.at(corner(i, k));
       for (int c = 0; c < 3; ++c) xyz[c][i] = p[c];
     }
     return {_mm512_load_ps(xyz[0]), _mm512_load_ps(xyz[1]), _mm512_load_ps(xyz[2])};

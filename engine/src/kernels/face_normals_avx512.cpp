@@ -1,0 +1,26 @@
+// Sixteen triangles at a time.
+
+#include "kernels/face_groups.h"
+#include "kernels/normals_avx512.h"
+
+namespace hedgerow::kernels {
+
+#if defined(__AVX512F__)
+
+NormalStats triangle_normals_avx512(IndexRange range, const Index* corners, const Points& points,
+                                    const NormalWriter& writer) noexcept {
+  return with_loader16(points, [&](const auto& loader) {
+    return triangle_normals(range, corners, points, loader, writer);
+  });
+}
+
+#else
+
+NormalStats triangle_normals_avx512(IndexRange range, const Index* corners, const Points& points,
+                                    const NormalWriter& writer) noexcept {
+  return triangle_normals_avx2(range, corners, points, writer);
+}
+
+#endif
+
+}  // namespace hedgerow::kernels
