@@ -154,11 +154,14 @@ def replace(stored, newer):
     return {"context": {**stored["context"], "again": again}, "rows": kept + list(rows.values())}
 
 
-def merge(main, portable):
-    """One document: the run, and the rows of a run on the portable path as a variant."""
+# What `HEDGEROW_SIMD` can ask for, besides the widest path of the processor, which runs without it.
+PATHS = ("portable", "avx2")
+
+
+def merge(main, by_path):
+    """One document: the run, and the rows of the runs on narrower paths as variants."""
     rows = list(main["rows"])
-    for entry in portable["rows"]:
-        if entry["name"].startswith("bandwidth/"):
-            continue
-        rows.append({**entry, "name": entry["name"] + "/portable"})
+    for path, narrower in by_path.items():
+        rows += [{**entry, "name": f"{entry['name']}/{path}"} for entry in narrower["rows"]
+                 if not entry["name"].startswith("bandwidth/")]
     return {"context": main["context"], "rows": rows}

@@ -2,8 +2,8 @@
 """Writes the tables of PERF.md, and the one of README.md, from the results of the benchmarks; nobody types a number there.
 
   perf_table.py --measure build/release/bench/hedgerow_bench [--mesh FILE]... [--rounds 5]
-      runs the benchmarks, once more on the portable path, stores bench/results/results.json and
-      rewrites the tables (bench/count.py makes counts.json, bench/perf_plots.py the pictures)
+      runs the benchmarks, some once more on each narrower path, stores bench/results/results.json
+      and rewrites the tables (bench/count.py makes counts.json, bench/perf_plots.py the pictures)
   perf_table.py --measure PROG --again PATTERN
       measures only the groups with such names, which take the place of the stored ones; the table
       of the machine says when (rows that are compared with each other should be one group)
@@ -36,7 +36,7 @@ from perf_frames import read_frames, with_part
 from perf_imr import IMR, imr_tables
 from perf_planar import PATTERN, PLANAR, planar_tables
 from perf_representations import REPRESENTATIONS, read_representations, representation_tables
-from perf_results import FOLDER, Results, merge, read_counts, read_results, replace, write_document
+from perf_results import FOLDER, PATHS, Results, merge, read_counts, read_results, replace, write_document
 from perf_results import RESULTS
 from perf_tables import SWEPT, all_tables, readme_tables, rewrite, targets_table
 from perf_targets import FOUNDATION, TARGETS, row_filter
@@ -45,7 +45,7 @@ PERF = FOLDER.parent / "PERF.md"
 README = FOLDER.parent / "README.md"
 # For meshes that are made, changed and freed again; PERF.md says why.
 SMALL_PAGES = {"HEDGEROW_HUGE_PAGES": "off"}
-PORTABLE_FILTER = f"^({'|'.join(SWEPT)})/(grid|scan|shuffled)/4M/[0-9]+$"
+PATHS_FILTER = f"^({'|'.join(SWEPT)})/(grid|scan|shuffled)/4M/[0-9]+$"
 
 
 def run(program, options, **environment):
@@ -60,11 +60,11 @@ def run(program, options, **environment):
 
 
 def measure(program, options, pattern=None):
-    """A run, and one on the portable path for what has such a row."""
+    """A run, and one on each narrower path for what has such a row."""
     chosen = ["--filter", pattern] if pattern else []
     usual = run(program, [*options, *chosen])
-    portable = run(program, [*options, "--filter", PORTABLE_FILTER], HEDGEROW_SIMD="portable")
-    return merge(usual, portable)
+    return merge(usual, {path: run(program, [*options, "--filter", PATHS_FILTER], HEDGEROW_SIMD=path)
+                         for path in PATHS})
 
 
 def main(arguments):

@@ -3,7 +3,7 @@
 import statistics
 
 from perf_format import markdown, number, optional, percent
-from perf_results import BASELINES, PEERS, size_of
+from perf_results import BASELINES, PATHS, PEERS, size_of
 from perf_targets import TARGETS, FOUNDATION, evaluate
 
 # What an operation is counted by, and the tables that show it.
@@ -94,7 +94,7 @@ def line_of(results, row, names):
 def operations_table(operations):
     def table(results, _counts):
         rows = [row for row in results if row.operation in operations
-                and not row.variant.endswith("portable")
+                and row.variant not in PATHS
                 and (size_of(row) >= SMALLEST_SHOWN or not row.times_ns)]
         rows.sort(key=lambda row: operations.index(row.operation))
         names = [name for name in BASELINES + PEERS
@@ -155,16 +155,18 @@ def strategy_table(results, _counts):
 
 
 def paths_table(results, _counts):
-    """The portable path beside AVX2."""
+    """The narrower paths beside the widest."""
     body = []
-    for row in results.timed():
-        if not row.variant.endswith("portable"):
-            continue
-        usual = results.get(row.name.removesuffix("/portable"))
-        if usual and row.operation in SWEPT:
-            body.append([f"{row.operation}/{row.dataset}/{row.size}", str(row.threads),
-                         number(usual.ns / 1e6), number(row.ns / 1e6), number(row.ns / usual.ns)])
-    return markdown(["operation", "threads", "AVX2, ms", "portable, ms", "portable/AVX2"], body)
+    for portable in results.timed(variant="portable"):
+        wide = results.get(portable.name.removesuffix("/portable"))
+        avx2 = results.get(portable.name.replace("portable", "avx2"))
+        if wide and avx2 and portable.operation in SWEPT:
+            body.append([f"{portable.operation}/{portable.dataset}/{portable.size}",
+                         str(portable.threads), number(wide.ns / 1e6), number(avx2.ns / 1e6),
+                         number(portable.ns / 1e6), number(avx2.ns / wide.ns),
+                         number(portable.ns / avx2.ns)])
+    return markdown(["operation", "threads", "widest, ms", "AVX2, ms", "portable, ms",
+                     "AVX2/widest", "portable/AVX2"], body)
 
 
 def counts_table(_results, counts):

@@ -33,11 +33,12 @@ class ResultsOfARun(unittest.TestCase):
         self.assertEqual(both.limit_gb_per_s(both.get("build/grid/4M/2")), 20.0)
         self.assertEqual(both.share(both.get("build/grid/4M/1")), 0.5)
 
-    def test_portable_rows_become_a_variant(self):
+    def test_rows_of_narrower_paths_become_variants(self):
+        narrower = document(bandwidth("copy", 1, copy=1.0), entry("build/grid/4M/1", 2))
         merged = perf_results.merge(document(entry("build/grid/4M/1", 1)),
-                                    document(bandwidth("copy", 1, copy=1.0), entry("build/grid/4M/1", 2)))
+                                    {"portable": narrower, "avx2": narrower})
         self.assertEqual([row["name"] for row in merged["rows"]],
-                         ["build/grid/4M/1", "build/grid/4M/1/portable"])
+                         ["build/grid/4M/1", "build/grid/4M/1/portable", "build/grid/4M/1/avx2"])
 
     def test_are_stored_as_json(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -54,6 +55,15 @@ class Tables(unittest.TestCase):
         # 20 ms for 12e6 half-edges and 1e8 bytes; the faster of the two copies moves 20 GB/s.
         self.assertEqual((cells["ms"], cells["ns/half-edge"], cells["B/half-edge"], cells["GB/s"],
                           cells["of limit"]), ("20.0", "1.67", "8.33", "5.00", "25 %"))
+
+    def test_show_the_paths_side_by_side_and_not_among_the_operations(self):
+        rows = results(entry("build/grid/4M/1", 10), entry("build/grid/4M/1/avx2", 20),
+                       entry("build/grid/4M/1/portable", 30))
+        cells = line_of(perf_tables.all_tables()["paths"](rows, NO_COUNTS), ["build/grid/4M", "1"])
+        self.assertEqual((cells["widest, ms"], cells["AVX2, ms"], cells["portable, ms"]),
+                         ("10.0", "20.0", "30.0"))
+        self.assertEqual((cells["AVX2/widest"], cells["portable/AVX2"]), ("2.00", "1.50"))
+        self.assertNotIn("avx2", perf_tables.all_tables()["build"](rows, NO_COUNTS))
 
     def test_give_ratios_to_the_same_dataset_and_show_where_we_lose(self):
         table = perf_tables.all_tables()["queries"](
