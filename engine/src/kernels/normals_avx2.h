@@ -158,8 +158,8 @@ class TriangleLoader {
   }
 
  private:
-  static constexpr std::ptrdiff_t kIndexGroupsAhead = 64;
-  static constexpr std::ptrdiff_t kPointGroupsAhead = 16;
+  static constexpr std::ptrdiff_t kIndexGroupsAhead = 128;
+  static constexpr std::ptrdiff_t kPointGroupsAhead = 64;
   static constexpr Index kCornerStep = 11;  // no multiple of 3: first, third, second corners
 
   // One lane has the largest of 24.
