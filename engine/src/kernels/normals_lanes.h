@@ -204,11 +204,15 @@ struct Float16 {
 [[nodiscard]] inline Float16 select(Mask16 condition, Float16 a, Float16 b) noexcept {
   return _mm512_mask_blend_ps(condition.bits, b.bits, a.bits);
 }
-[[nodiscard]] inline Float16 kept(Mask16 condition, Float16 a) noexcept {
-  return _mm512_maskz_mov_ps(condition.bits, a.bits);
+/// Masks of this width add and subtract by themselves; see `more_where` and the two after it.
+[[nodiscard]] inline Float16 more_where(Mask16 condition, Float16 a, Float16 b) noexcept {
+  return _mm512_mask_add_ps(a.bits, condition.bits, a.bits, b.bits);
 }
-[[nodiscard]] inline Float16 negated(Mask16 condition, Float16 a) noexcept {
-  return _mm512_mask_xor_ps(a.bits, condition.bits, a.bits, _mm512_set1_ps(-0.0f));
+[[nodiscard]] inline Float16 less_where(Mask16 condition, Float16 a, Float16 b) noexcept {
+  return _mm512_mask_sub_ps(a.bits, condition.bits, a.bits, b.bits);
+}
+[[nodiscard]] inline Float16 rest_where(Mask16 condition, Float16 a, Float16 whole) noexcept {
+  return _mm512_mask_sub_ps(a.bits, condition.bits, whole.bits, a.bits);
 }
 
 #endif

@@ -43,6 +43,20 @@ template <class T>
 
 inline constexpr float kPi = 3.14159265358979323846f;
 
+/// Where the condition holds, a + b, a - b and whole - a; elsewhere a. \pre no lane of a is -0
+template <class Condition, class T>
+[[nodiscard, gnu::always_inline]] inline T more_where(Condition condition, T a, T b) noexcept {
+  return a + kept(condition, b);
+}
+template <class Condition, class T>
+[[nodiscard, gnu::always_inline]] inline T less_where(Condition condition, T a, T b) noexcept {
+  return a - kept(condition, b);
+}
+template <class Condition, class T>
+[[nodiscard, gnu::always_inline]] inline T rest_where(Condition condition, T a, T whole) noexcept {
+  return kept(condition, whole) + negated(condition, a);
+}
+
 // The angle in [0, pi / 2] of which `adjacent`, not below 0, is the dot product.
 //
 // atan(t) = t + t^3 P(t^2) for t <= tan(pi / 8), found by the exchange algorithm: off by 4.9e-9 at
@@ -53,23 +67,21 @@ template <class T>
   const T low = smaller(cross_length, adjacent);
   const T high = larger(cross_length, adjacent);
   const auto is_steep = low > high * T(0.41421356f);
-  const T numerator = low - kept(is_steep, high);
-  const T denominator = high + kept(is_steep, low);
+  const T numerator = less_where(is_steep, low, high);
+  const T denominator = more_where(is_steep, high, low);
   const T t = numerator / larger(denominator, T(0x1p-149f));  // 0 / 0 is no angle
   const T s = t * t;
   T p = T(0x1.43ae18p-4f) * s + T(-0x1.1b1f8ap-3f);
   p = p * s + T(0x1.99062p-3f);
   p = p * s + T(-0x1.5553d2p-2f);
-  const T small_angle = kept(is_steep, T(0.25f * kPi)) + (t + t * (s * p));
-  const auto is_over_45 = cross_length > adjacent;
-  return kept(is_over_45, T(0.5f * kPi)) + negated(is_over_45, small_angle);
+  const T small_angle = more_where(is_steep, t + t * (s * p), T(0.25f * kPi));
+  return rest_where(cross_length > adjacent, small_angle, T(0.5f * kPi));
 }
 
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T angle_of(T cross_length, T dot_product) noexcept {
   const T acute = acute_angle_of(cross_length, magnitude(dot_product));
-  const auto is_obtuse = dot_product < T(0.0f);
-  return kept(is_obtuse, T(kPi)) + negated(is_obtuse, acute);
+  return rest_where(dot_product < T(0.0f), acute, T(kPi));
 }
 
 template <class Condition, class T>
