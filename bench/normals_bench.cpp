@@ -17,8 +17,8 @@ namespace hedgerow::bench {
 
 namespace {
 
-/// Memory that begins at a page. Rows of the smallest meshes are compared to a few per cent, and how
-/// arrays lie to one another in their pages is worth more than that.
+/// Memory that begins at a page. Rows of the smallest meshes are compared to a few per cent, and
+/// how arrays lie to one another in their pages is worth more than that.
 class Pages {
  public:
   explicit Pages(std::size_t bytes) : memory_(bytes + kPage), bytes_(bytes) {}
