@@ -114,7 +114,9 @@ def roofline(pyplot, results, counts):
     points, legend = [], {}
     for row in counts["rows"]:
         for count in threads:
-            timed = results.get(f"{row['operation']}/{row['dataset']}/{row['size']}/{count}")
+            name = f"{row['operation']}/{row['dataset']}/{row['size']}/{count}"
+            # What was counted is what is timed: a wider path has fewer instructions.
+            timed = results.get(name + "/avx2") or results.get(name)
             if row["path"] != "avx2" or row["variant"] or timed is None:
                 continue
             intensity = row["instructions"] / row["compulsory_bytes"]
@@ -137,7 +139,8 @@ def roofline(pyplot, results, counts):
         axis.plot([low, min(edge, high), high], [low * rate, min(edge, high) * rate, min(peak, high * rate)],
                   color="#555555", linewidth=1)
         axis.annotate(f"triad, {count} thread{'s' if count > 1 else ''}", (low, low * rate),
-                      fontsize=8, color="#555555", va="bottom", rotation=35)
+                      fontsize=8, color="#555555", rotation=35,
+                      va="bottom" if count == max(threads) else "top")
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("counted instructions a byte that had to move")
