@@ -131,6 +131,15 @@ TEST(VertexNormals, ByMaxKeepTheirDigitsOnNeedles) {
   }
 }
 
+// As many as a group of each form takes, and some more; there is no half-edge to read.
+TEST(VertexNormals, OfVerticesWithoutAnyFaceAreDegenerate) {
+  Soup soup;
+  soup.xyz = Buffer<float>(3 * 100, 1.0F);
+  for (const NormalWeight weight : test::kWeights) {
+    EXPECT_EQ(vertices_of(soup, weight).stats, (NormalStats{100, 0}));
+  }
+}
+
 TEST(VertexNormals, FollowThePolicyAtIsolatedVerticesAndZeroSums) {
   // Vertex 3 is isolated; 4, 5, 6 are those of a triangle without area.
   const Soup soup = test::make_soup({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 0, 0, 7, 1, 0, 7, 2, 0, 7},

@@ -201,6 +201,8 @@ NormalStats gather_normals(IndexRange range, const TriangleView& mesh, const Gat
                            IndexSet& spill, TermWindow& window,
                            const NormalWriter& writer) noexcept {
   return with_weight(input.weight, [&](auto w) {
+    // The plain form reads half-edge 0 for vertices without any.
+    if (mesh.opposite.empty()) return gather<w()>(range, mesh, input, spill, window, writer);
     const auto group = suits_avx512(input.points) ? gather_group_avx512<w()>
                        : suits_avx2(input.points) ? gather_group_avx2<w()>
                                                   : gather_group_plain<w()>;
