@@ -70,6 +70,9 @@ struct Rows8 {
 template <std::size_t kFloats>
 class TriangleLoader {
  public:
+  using Float = Float8;
+  static constexpr Index kLanes = 8;
+
   explicit TriangleLoader(const Points& points) noexcept
       : data_(points.positions.data),
         floats_(points.positions.stride_bytes / sizeof(float)),
@@ -79,7 +82,7 @@ class TriangleLoader {
   /// hardware prefetchers know neither which positions come next nor what lies beyond a page. A
   /// few corners of a group stand for all of it. (Inlined by force, since gcc 12 takes a function
   /// that only prefetches for one that does nothing.)
-  template <Index kTriangles = 8>
+  template <Index kTriangles = kLanes>
   [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
     const Index* far = corners + std::min<std::ptrdiff_t>(left, 24 * kIndexGroupsAhead);
     for (Index i = 0; i < 3 * kTriangles; i += 16) {
@@ -90,9 +93,6 @@ class TriangleLoader {
       _mm_prefetch(reinterpret_cast<const char*>(at(near[k])), _MM_HINT_T0);
     }
   }
-
-  using Float = Float8;
-  static constexpr Index kLanes = 8;
 
   /// Where the position of a vertex lies. By reference: the offset is taken of the index in memory,
   /// by one instruction in place of a load, an addition and a factor.

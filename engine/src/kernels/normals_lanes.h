@@ -8,7 +8,7 @@
 #include <emmintrin.h>
 #endif
 
-/// One arithmetic for one float, for four and for eight: the formulas of the normals are templates
+/// One arithmetic for one float, four, eight and sixteen: the formulas of the normals are templates
 /// over these, so that SIMD and scalar code perform the same operations in the same order on each
 /// lane. Every operation used is rounded as IEEE 754 says, so the bits agree, too.
 namespace hedgerow::kernels {

@@ -9,7 +9,7 @@
 #if defined(__AVX2__)
 
 /// The terms of weights that differ between the corners of a triangle. Each waits for a square
-/// root, two divisions and a polynomial, longer than a processor looks ahead; so they are taken in
+/// root, divisions and a polynomial, longer than a processor looks ahead; so they are taken in
 /// steps, each for many triangles that do not wait for one another.
 ///
 /// A `Loader` says how wide that is:
