@@ -70,6 +70,34 @@ TEST(NormalRange, MixesTinyAndHugeFacesAtOneVertex) {
   }
 }
 
+TEST(NormalRange, DoesNotDependOnWhetherAListIsOfTrianglesAlone) {
+  // Positions of mixed size, so that many triangles are too small or too large for float.
+  Soup soup = test::random_soup(11, 60, 400, 3);
+  for (std::size_t i = 0; i < soup.xyz.size(); ++i) {
+    soup.xyz[i] *= i % 7 < 5 ? 1.0f : i % 7 == 5 ? 1e-20f : 1e16f;
+  }
+  const FaceList triangles = soup.face_list();
+  std::vector<Index> offsets(401);
+  for (std::size_t f = 0; f < offsets.size(); ++f) offsets[f] = 3 * static_cast<Index>(f);
+  FaceList polygons = triangles;
+  polygons.offsets = offsets.data();
+  polygons.stride_bytes = sizeof(Index);
+  for (const NormalWeight weight : test::kWeights) {
+    NormalOptions options;
+    options.weight = weight;
+    const auto scatter = [&](const FaceList& faces) {
+      Answer answer;
+      answer.bits.resize(180);
+      Workspace workspace;
+      const NormalsOut out{reinterpret_cast<float*>(answer.bits.data()), 60};
+      answer.stats = *scatter_vertex_normals(faces, soup.positions(), out, options,
+                                             Execution::serial(), workspace);
+      return answer;
+    };
+    EXPECT_EQ(scatter(triangles), scatter(polygons)) << static_cast<int>(weight);
+  }
+}
+
 TEST(NormalRange, LeavesOutFacesWithACoordinateThatIsNotFinite) {
   const Soup good = test::sphere(2);
   const Connectivity mesh = test::mesh_of(good);

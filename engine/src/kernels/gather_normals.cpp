@@ -9,33 +9,35 @@ namespace hedgerow::kernels {
 
 namespace {
 
-template <NormalWeight W>
-Wide triangle_corner(Index h, const GatherInput& input) noexcept {
+// Calls visit(p0, p1, p2, k) with the triangle of a half-edge, and which of its corners that is.
+template <class Visit>
+auto with_triangle(Index h, const GatherInput& input, const Visit& visit) noexcept {
   const Index k = h % 3;
   const Index* corners = input.origin + (h - k);
-  return wide_corner<W>(input.points[corners[0]], input.points[corners[1]],
-                        input.points[corners[2]], static_cast<int>(k));
+  return visit(input.points[corners[0]], input.points[corners[1]], input.points[corners[2]],
+               static_cast<int>(k));
 }
 
-template <NormalWeight W>
-Wide polygon_corner(Index h, const PolygonView& mesh, const GatherInput& input) noexcept {
+// Calls visit(face, degree, k, point) for a half-edge of any face, with what `face_corner` takes.
+template <NormalWeight W, class Visit>
+auto with_polygon(Index h, const PolygonView& mesh, const GatherInput& input,
+                  const Visit& visit) noexcept {
   const FaceId f = mesh.face(HalfedgeId(h));
-  if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) {
-    return input.faces[f.value];
-  }
   const Index first = mesh.first(f).value;
   const auto point = [&](Index k) { return input.points[input.origin[first + k]]; };
-  Wide face;
-  if constexpr (W == NormalWeight::angle) face = input.faces[f.value];
-  return face_corner<W>(face, mesh.degree(f), h - first, point);
+  const Wide face = W == NormalWeight::max ? Wide{} : input.faces[f.value];
+  return visit(face, mesh.degree(f), h - first, point);
 }
 
 template <NormalWeight W, class View>
 Wide any_corner(Index h, const View& mesh, const GatherInput& input) noexcept {
   if constexpr (std::is_same_v<View, PolygonView>) {
-    if (!input.is_triangles) return polygon_corner<W>(h, mesh, input);
+    if (!input.is_triangles) {
+      return with_polygon<W>(h, mesh, input,
+                             [](const auto&... face) { return face_corner<W>(face...); });
+    }
   }
-  return triangle_corner<W>(h, input);
+  return with_triangle(h, input, [](const auto&... corner) { return wide_corner<W>(corner...); });
 }
 
 template <NormalWeight W, class View>
@@ -44,7 +46,9 @@ Float3 add_corners(Float3 sum, Index* ids, Index count, const View& mesh,
   if constexpr (std::is_same_v<View, PolygonView>) {
     if (!input.is_triangles) {
       for (Index i = 0; i < count; ++i) {
-        sum = sum + narrow(polygon_corner<W>(ids[i], mesh, input));
+        sum = sum + with_polygon<W>(ids[i], mesh, input, [](const auto&... face) {
+                return plain_face_corner<W>(face...);
+              });
       }
       return sum;
     }
@@ -175,7 +179,10 @@ NormalStats gather_listed(decltype(gather_listed_avx2<W>) group, const Index* id
 template <NormalWeight W>
 Float3 add_triangle_corners_scalar(Float3 sum, const Index* ids, Index count,
                                    const GatherInput& input) noexcept {
-  for (Index i = 0; i < count; ++i) sum = sum + narrow(triangle_corner<W>(ids[i], input));
+  for (Index i = 0; i < count; ++i) {
+    sum = sum + with_triangle(ids[i], input,
+                              [](const auto&... corner) { return plain_corner<W>(corner...); });
+  }
   return sum;
 }
 

@@ -6,6 +6,7 @@
 
 #include "kernels/index_lanes.h"
 #include "kernels/normals_source.h"
+#include "kernels/point_rows.h"
 
 #if defined(__AVX2__)
 
@@ -74,44 +75,20 @@ class TriangleLoader {
   static constexpr Index kLanes = 8;
 
   explicit TriangleLoader(const Points& points) noexcept
-      : data_(points.positions.data),
-        floats_(points.positions.stride_bytes / sizeof(float)),
-        last_(_mm256_set1_epi32(static_cast<int>(points.positions.count) - 1)) {}
+      : rows_(points), last_(_mm256_set1_epi32(static_cast<int>(rows_.last()))) {}
 
-  /// Asks for what groups further on will take, the last of which is `left` indices ahead:
-  /// hardware prefetchers know neither which positions come next nor what lies beyond a page. A
-  /// few corners of a group stand for all of it. (Inlined by force, since gcc 12 takes a function
-  /// that only prefetches for one that does nothing.)
+  /// As `PointRows` does.
   template <Index kTriangles = kLanes>
   [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
-    const Index* far = corners + std::min<std::ptrdiff_t>(left, 24 * kIndexGroupsAhead);
-    for (Index i = 0; i < 3 * kTriangles; i += 16) {
-      _mm_prefetch(reinterpret_cast<const char*>(far + i), _MM_HINT_T0);
-    }
-    const Index* near = corners + std::min<std::ptrdiff_t>(left, 24 * kPointGroupsAhead);
-    for (Index k = 0; k < 3 * kTriangles; k += kCornerStep) {
-      _mm_prefetch(reinterpret_cast<const char*>(at(near[k])), _MM_HINT_T0);
-    }
+    rows_.template prefetch<kTriangles>(corners, left);
   }
-
-  /// Where the position of a vertex lies. By reference: the offset is taken of the index in memory,
-  /// by one instruction in place of a load, an addition and a factor.
-  [[nodiscard, gnu::always_inline]] const float* at(const Index& v) const noexcept {
-#if defined(__x86_64__)
-    if constexpr (kFloats == 3 && sizeof(Index) == 4) {
-      std::uintptr_t bytes;
-      asm("imull $12, %1, %k0" : "=r"(bytes) : "m"(v));
-      return reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(data_) + bytes);
-    }
-#endif
-    return data_ + static_cast<std::size_t>(v) * (kFloats == 0 ? floats_ : kFloats);
-  }
+  [[nodiscard, gnu::always_inline]] const float* at(Index v) const noexcept { return rows_.at(v); }
 
   /// The corners of eight triangles, lane by lane as `store_turned` wants them: lane i has triangle
   /// 2 (i mod 4) + i / 4, so that the two halves of a row are triangles in a row.
   [[gnu::always_inline]] void load_turned(const Index* corners,
                                           Vec3<Float8> (&p)[3]) const noexcept {
-    const auto corner = [corners](int i, int k) -> const Index& {
+    const auto corner = [corners](int i, int k) -> Index {
       return corners[3 * (2 * (i % 4) + i / 4) + k];
     };
     load(corner, largest_of(corners), p);
@@ -130,14 +107,13 @@ class TriangleLoader {
   }
   /// The positions of two vertices, as rows of x, y, z and what lies behind them. \pre neither is
   /// the last vertex
-  [[nodiscard]] __m256 load_two(const Index& low, const Index& high) const noexcept {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at(low))),
-                                _mm_loadu_ps(at(high)), 1);
+  [[nodiscard]] __m256 load_two(Index low, Index high) const noexcept {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(rows_[low]), rows_[high], 1);
   }
 
   /// Lane i of p[k] is at corners[3 i + k].
   [[gnu::always_inline]] void load(const Index* corners, Vec3<Float8> (&p)[3]) const noexcept {
-    const auto corner = [corners](int i, int k) -> const Index& { return corners[3 * i + k]; };
+    const auto corner = [corners](int i, int k) -> Index { return corners[3 * i + k]; };
     load(corner, largest_of(corners), p);
   }
   /// Lane i of p[k] is at corners[first + k], where `first` is lane i of `firsts`. All but the last
@@ -153,15 +129,11 @@ class TriangleLoader {
     };
     __m128i largest = quad(0);
     for (int i = 1; i < 8; ++i) largest = _mm_max_epi32(largest, quad(i));
-    const auto corner = [&](int i, int k) -> const Index& { return corners[first[i] + k]; };
+    const auto corner = [&](int i, int k) -> Index { return corners[first[i] + k]; };
     load(corner, _mm256_castsi128_si256(largest), p);
   }
 
  private:
-  static constexpr std::ptrdiff_t kIndexGroupsAhead = 128;
-  static constexpr std::ptrdiff_t kPointGroupsAhead = 64;
-  static constexpr Index kCornerStep = 11;  // no multiple of 3: first, third, second corners
-
   // One lane has the largest of 24.
   [[nodiscard]] static __m256i largest_of(const Index* corners) noexcept {
     const __m256i some = _mm256_max_epi32(load_indices(corners), load_indices(corners + 8));
@@ -206,8 +178,7 @@ class TriangleLoader {
     return {_mm256_load_ps(xyz[0]), _mm256_load_ps(xyz[1]), _mm256_load_ps(xyz[2])};
   }
 
-  const float* data_;
-  std::size_t floats_;
+  PointRows<kFloats> rows_;
   __m256i last_;
 };
 

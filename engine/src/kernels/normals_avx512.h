@@ -64,14 +64,14 @@ class TriangleLoader16 {
 
   /// Lane i of p[k] is at corners[3 i + k].
   [[gnu::always_inline]] void load(const Index* corners, Vec3<Float16> (&p)[3]) const noexcept {
-    const auto corner = [corners](int i, int k) -> const Index& { return corners[3 * i + k]; };
+    const auto corner = [corners](int i, int k) -> Index { return corners[3 * i + k]; };
     load(corner, has_last(corners), p);
   }
   /// Lane i has triangle 4 (i mod 4) + i / 4, so that the four parts of a row are triangles in a
   /// row.
   [[gnu::always_inline]] void load_turned(const Index* corners,
                                           Vec3<Float16> (&p)[3]) const noexcept {
-    const auto corner = [corners](int i, int k) -> const Index& {
+    const auto corner = [corners](int i, int k) -> Index {
       return corners[3 * (4 * (i % 4) + i / 4) + k];
     };
     load(corner, has_last(corners), p);

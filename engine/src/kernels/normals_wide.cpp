@@ -127,13 +127,12 @@ Wide polygon_vector(const FaceSource& faces, Index f, const Points& points, Poly
 
 template <NormalWeight W>
 Wide wide_corner(Float3 p0, Float3 p1, Float3 p2, int k) noexcept {
+  if constexpr (W == NormalWeight::area) return triangle_vector(p0, p1, p2, false);
   TriangleTerms<float> terms;
   if (triangle_terms<W>(p0, p1, p2, terms)) {
     return {corner_term<W>(terms, k == 0, k == 2), 0};
   }
-  if constexpr (W == NormalWeight::area || W == NormalWeight::uniform) {
-    return triangle_vector(p0, p1, p2, W == NormalWeight::uniform);
-  }
+  if constexpr (W == NormalWeight::uniform) return triangle_vector(p0, p1, p2, true);
   const Double3 p[3] = {widen(p0), widen(p1), widen(p2)};
   const Double3 after = p[(k + 1) % 3] - p[k];
   const Double3 before = p[(k + 2) % 3] - p[k];

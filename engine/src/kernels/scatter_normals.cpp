@@ -31,7 +31,7 @@ void scatter_polygons(IndexRange range, const ScatterInput& input, const SumBloc
       if (!block.holds(v)) continue;
       if (!is_known) face = face_vector<W>(input.faces, f, input.points, input.polygon);
       is_known = true;
-      add(block[v], {narrow(face_corner<W>(face, degree, k, point)), 1});
+      add(block[v], {plain_face_corner<W>(face, degree, k, point), 1});
     }
   }
 }

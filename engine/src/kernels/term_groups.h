@@ -70,59 +70,69 @@ inline void add_row(TermRow& sum, __m128 row) noexcept {
   _mm_store_ps(to, _mm_add_ps(_mm_load_ps(to), row));
 }
 
-/// Sums by vertex id, though the first ones need not exist: one addition to an offset. \pre with
-/// BMI2: offsets fit 32 bits
+/// Sums by vertex id, though the first ones need not exist: one addition to an offset.
 class SumsById {
  public:
   explicit SumsById(const SumBlock& block) noexcept
       : zeroth_(reinterpret_cast<std::uintptr_t>(block.sums) -
                 sizeof(TermRow) * static_cast<std::uintptr_t>(block.begin)) {}
 
-  /// By reference: BMI2 loads and turns the index in memory by one instruction.
-  [[nodiscard, gnu::always_inline]] TermRow& operator[](const Index& v) const noexcept {
-    return *reinterpret_cast<TermRow*>(zeroth_ + offset_of(v));
+  [[nodiscard, gnu::always_inline]] TermRow& operator[](Index v) const noexcept {
+    static_assert(sizeof(TermRow) == 16);
+    std::uintptr_t twice = 2 * static_cast<std::uintptr_t>(v);
+    asm("" : "+r"(twice));  // load and store take a factor of eight, but none of sixteen
+    return *reinterpret_cast<TermRow*>(zeroth_ + 8 * twice);
   }
 
  private:
-  [[gnu::always_inline]] static std::uintptr_t offset_of(const Index& v) noexcept {
-    static_assert(sizeof(TermRow) == 1 << 4);
-#if defined(__BMI2__)
-    return std::rotl(static_cast<std::uint32_t>(v), 4);
-#else
-    return static_cast<std::uintptr_t>(v) << 4;
-#endif
-  }
-
   std::uintptr_t zeroth_;
 };
 
-template <bool kInside, class Groups>
-void add_groups(const Triangles& triangles, const TermSums& to, const Groups& groups) noexcept {
+// Calls all(corners) for groups that lie in the block, and some(corners, bits) for those that touch
+// it, where bit c says that corner c is in the block. Both return false if the plain form is needed.
+template <bool kInside, class Groups, class All, class Some>
+[[gnu::always_inline]] inline void for_each_touching(const Triangles& triangles, const TermSums& to,
+                                                     const Groups& groups, const All& all,
+                                                     const Some& some) noexcept {
   constexpr std::uint64_t kAll = (std::uint64_t{1} << 3 * Groups::kSize) - 1;
-  constexpr bool kIsOne = rows_of(Groups::kWeight) == 1;
-  const SumsById sums(to.block);
   for_each_group(
       triangles, groups,
       [&](Index, const Index* corners) {
         const std::uint64_t in_block = kInside ? kAll : groups.inside(corners, to.block);
-        if (in_block == 0) return true;
-        __m128 rows[Groups::kSize * rows_of(Groups::kWeight)];
+        if (in_block == kAll) [[likely]]
+          return all(corners);
+        return in_block == 0 || some(corners, in_block);
+      },
+      [&](Index, const Triangles& few) { Groups::add_rest(few, to); });
+}
+
+template <bool kInside, class Groups>
+void add_groups(const Triangles& triangles, const TermSums& to, const Groups& groups) noexcept {
+  constexpr bool kIsOne = rows_of(Groups::kWeight) == 1;
+  constexpr Index kRows = Groups::kSize * rows_of(Groups::kWeight);
+  const SumsById sums(to.block);
+  for_each_touching<kInside>(
+      triangles, to, groups,
+      [&](const Index* corners) __attribute__((always_inline)) {
+        __m128 rows[kRows];
         if (!groups.make(corners, rows)) [[unlikely]]
           return false;
-        if (in_block == kAll) [[likely]] {
 #pragma GCC unroll 48
-          for (Index c = 0; c < 3 * Groups::kSize; ++c) {
-            add_row(sums[corners[c]], rows[kIsOne ? c / 3 : c]);
-          }
-        } else {
-          for (std::uint64_t left = in_block; left != 0; left &= left - 1) {
-            const int c = std::countr_zero(left);
-            add_row(sums[corners[c]], rows[kIsOne ? c / 3 : c]);
-          }
+        for (Index c = 0; c < 3 * Groups::kSize; ++c) {
+          add_row(sums[corners[c]], rows[kIsOne ? c / 3 : c]);
         }
         return true;
       },
-      [&](Index, const Triangles& few) { Groups::add_rest(few, to); });
+      [&](const Index* corners, std::uint64_t in_block) {
+        __m128 rows[kRows];
+        if (!groups.make(corners, rows)) [[unlikely]]
+          return false;
+        for (std::uint64_t left = in_block; left != 0; left &= left - 1) {
+          const int c = std::countr_zero(left);
+          add_row(sums[corners[c]], rows[kIsOne ? c / 3 : c]);
+        }
+        return true;
+      });
 }
 
 template <class Groups>

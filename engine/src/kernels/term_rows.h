@@ -34,7 +34,7 @@ struct Triangles {
   }
 };
 
-/// Writes `rows_of(weight)` rows a triangle: to the last bit what `narrow(wide_corner(...))` says
+/// Writes `rows_of(weight)` rows a triangle: to the last bit what `triangle_corners` says
 /// of the corner, and a count above 0. \pre rows are 64-byte aligned
 void fill_term_rows(const Triangles& triangles, const Points& points, NormalWeight weight,
                     TermRow* rows) noexcept;

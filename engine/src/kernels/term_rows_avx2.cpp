@@ -1,5 +1,6 @@
-// Eight triangles at a time.
+// Eight triangles at a time, a lane each; areas one after the other, as rows.
 
+#include "kernels/area_terms.h"
 #include "kernels/normals_avx2.h"
 #include "kernels/term_groups.h"
 #include "kernels/weighed_terms.h"
@@ -10,20 +11,8 @@ namespace hedgerow::kernels {
 
 namespace {
 
-// Of weights by which all corners of a triangle add the same.
-template <NormalWeight W, class Loader>
-struct Groups8 {
-  static_assert(rows_of(W) == 1);
-  static constexpr NormalWeight kWeight = W;
-  static constexpr auto fill_rest = fill_term_rows_sse;
-  static constexpr auto add_rest = add_terms_sse;
+struct Corners8 {
   static constexpr Index kSize = 8;
-
-  const Loader& loader;
-
-  [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
-    loader.prefetch(corners, left);
-  }
 
   static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
     const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
@@ -36,41 +25,40 @@ struct Groups8 {
     }
     return bits;
   }
+  [[gnu::always_inline]] static bool is_among(const Index* corners, Index v) noexcept {
+    const __m256i wanted = _mm256_set1_epi32(static_cast<int>(v));
+    const auto is = [&](int j) {
+      return _mm256_cmpeq_epi32(load_indices(corners + 8 * j), wanted);
+    };
+    const __m256i any = _mm256_or_si256(_mm256_or_si256(is(0), is(1)), is(2));
+    return _mm256_testz_si256(any, any) == 0;
+  }
+};
 
+// Unit normals: eight triangles, a lane each, turned into rows.
+template <class Loader>
+struct UnitGroups {
+  static constexpr NormalWeight kWeight = NormalWeight::uniform;
+  static constexpr auto fill_rest = fill_term_rows_sse;
+  static constexpr auto add_rest = add_terms_sse;
+  static constexpr Index kSize = Corners8::kSize;
+
+  const Loader& loader;
+
+  [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
+    loader.prefetch(corners, left);
+  }
+  static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
+    return Corners8::inside(corners, block);
+  }
   [[gnu::always_inline]] bool make(const Index* corners, __m128* rows) const noexcept {
-    if constexpr (W == NormalWeight::area) return make_areas(corners, rows);
     Vec3<Float8> p[3];
     loader.load(corners, p);
     TriangleTerms<Float8> terms;
-    const Mask8 usual = triangle_terms<W>(p[0], p[1], p[2], terms);
+    const Mask8 usual = triangle_terms<kWeight>(p[0], p[1], p[2], terms);
     const Rows8 eight = to_rows(terms.base, 1);
     for (int i = 0; i < kSize; ++i) rows[i] = eight.row[i];
     return usual.all();
-  }
-
-  // Area vectors are crossed as rows, as positions lie in memory: to turn them into lanes and back
-  // takes more instructions than the cross products. Only squares become lanes, to test all eight.
-  [[gnu::always_inline]] bool make_areas(const Index* corners, __m128* rows) const noexcept {
-    if (loader.has_last(corners)) [[unlikely]]
-      return false;
-    const auto turned = [](__m256 v) { return _mm256_permute_ps(v, 0xc9); };  // y, z, x
-    const __m256 one = _mm256_set1_ps(1);
-    __m256 square[4];
-#pragma GCC unroll 4
-    for (int j = 0; j < 4; ++j) {
-      const Index* two = corners + 6 * j;
-      const __m256 origin = loader.load_two(two[0], two[3]);
-      const __m256 u = _mm256_sub_ps(loader.load_two(two[1], two[4]), origin);
-      const __m256 v = _mm256_sub_ps(loader.load_two(two[2], two[5]), origin);
-      // z, x, y of the cross product, and what came of the bytes behind the positions.
-      const __m256 zxy = _mm256_sub_ps(_mm256_mul_ps(u, turned(v)), _mm256_mul_ps(turned(u), v));
-      const __m256 area = _mm256_blend_ps(turned(zxy), one, 0x88);
-      square[j] = _mm256_mul_ps(area, area);
-      rows[2 * j] = _mm256_castps256_ps128(area);
-      rows[2 * j + 1] = _mm256_extractf128_ps(area, 1);
-    }
-    const Vec3<Float8> squares = to_lanes(square[0], square[1], square[2], square[3]);
-    return is_usual((squares.x + squares.y) + squares.z).lanes() == 0xff;
   }
 };
 
@@ -79,13 +67,15 @@ struct Groups8 {
 void fill_term_rows_avx2(const Triangles& triangles, const Points& points, NormalWeight weight,
                          TermRow* rows) noexcept {
   with_weight(weight, [&](auto w) {
+    if constexpr (w() == NormalWeight::area)
+      return fill_area_rows<Corners8>(triangles, points, rows);
     with_loader(points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
         fill_weighed<w()>(triangles, loader, rows, [&](const Triangles& few, TermRow* to) {
           fill_term_rows_sse(few, points, w(), to);
         });
       } else {
-        fill_groups(triangles, points, Groups8<w(), Loader>{loader}, rows);
+        fill_groups(triangles, points, UnitGroups<Loader>{loader}, rows);
       }
     });
   });
@@ -93,12 +83,13 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
 
 void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
+    if constexpr (w() == NormalWeight::area) return add_all_areas<Corners8>(triangles, to);
     with_loader(to.points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
         add_all_weighed<w()>(triangles, to, loader,
                              [&](const Triangles& few) { add_terms_sse(few, to); });
       } else {
-        add_all_groups(triangles, to, Groups8<w(), Loader>{loader});
+        add_all_groups(triangles, to, UnitGroups<Loader>{loader});
       }
     });
   });
