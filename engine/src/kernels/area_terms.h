@@ -1,7 +1,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernels/point_rows.h"
 #include "kernels/term_groups.h"
@@ -66,55 +68,164 @@ struct AreaGroups {
   }
 };
 
+/// Adds triangles to sums. Indices are loaded before the first sum is stored, which might be one of
+/// them for all that the compiler knows.
+template <class Rows>
+class AreaAdder {
+ public:
+  AreaAdder(const Rows& points, const SumBlock& block) noexcept : points_(points), sums_(block) {}
+
+  [[gnu::always_inline]] void add_triangle(const Index* corners) const noexcept {
+    const Index a = corners[0];
+    const Index b = corners[1];
+    const Index c = corners[2];
+    const __m128 row = area_row(points_[a], points_[b], points_[c]);
+    add_row(sums_[a], row);
+    add_row(sums_[b], row);
+    add_row(sums_[c], row);
+  }
+
+  /// Two triangles of which the second has two corners of the first, then a new one: four positions
+  /// and four sums in place of six. \pre `is_cut_quad` or `is_turned_quad` holds, as `kTurned` says
+  template <bool kTurned>
+  [[gnu::always_inline]] void add_quad(const Index* corners) const noexcept {
+    const Index a = corners[0];
+    const Index b = corners[1];
+    const Index c = corners[2];
+    const Index d = corners[5];
+    const __m128 pa = points_[a];
+    const __m128 pb = points_[b];
+    const __m128 pc = points_[c];
+    const __m128 first = area_row(pa, pb, pc);
+    const __m128 second = kTurned ? area_row(pc, pb, points_[d]) : area_row(pa, pc, points_[d]);
+    kTurned ? add_row(sums_[a], first) : add_rows(sums_[a], first, second);
+    kTurned ? add_rows(sums_[b], first, second) : add_row(sums_[b], first);
+    add_rows(sums_[c], first, second);
+    add_row(sums_[d], second);
+  }
+
+  /// What a triangle adds to those of its corners whose bit of `wanted` is set.
+  void add_some(const Index* corners, std::uint64_t wanted) const noexcept {
+    const __m128 row = area_row(points_[corners[0]], points_[corners[1]], points_[corners[2]]);
+    for (int k = 0; k < 3; ++k) {
+      if ((wanted >> k & 1) != 0) add_row(sums_[corners[k]], row);
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] static void add_rows(TermRow& sum, __m128 first, __m128 second) noexcept {
+    auto* to = reinterpret_cast<float*>(&sum);
+    _mm_store_ps(to, _mm_add_ps(_mm_add_ps(_mm_load_ps(to), first), second));
+  }
+
+  const Rows& points_;
+  SumsById sums_;
+};
+
+/// Triangles a, b, c and a, c, d, as most programs cut quads.
+[[nodiscard, gnu::always_inline]] inline bool is_cut_quad(const Index* corners) noexcept {
+  return corners[3] == corners[0] && corners[4] == corners[2];
+}
+/// Triangles a, b, c and c, b, d, as a numbering by fronts leaves every other row.
+[[nodiscard, gnu::always_inline]] inline bool is_turned_quad(const Index* corners) noexcept {
+  return corners[3] == corners[2] && corners[4] == corners[1];
+}
+
+/// Calls quad(turned, corners) for pairs that are a quad cut in two, where `turned` is a constant,
+/// and triangle(corners) for what is left.
+template <class Quad, class Triangle>
+[[gnu::always_inline]] inline void for_each_quad(const Index* corners, Index count,
+                                                 const Quad& quad,
+                                                 const Triangle& triangle) noexcept {
+  const Index* const end = corners + 3 * static_cast<std::ptrdiff_t>(count);
+  while (corners + 6 <= end) {
+    if (is_cut_quad(corners)) {
+      quad(std::false_type(), corners);
+    } else if (is_turned_quad(corners)) {
+      quad(std::true_type(), corners);
+    } else {
+      triangle(corners);
+      corners += 3;
+      continue;
+    }
+    corners += 6;
+  }
+  if (corners < end) triangle(corners);
+}
+
+/// Whether most triangles come in such pairs. Told by the first few, as a test that is not foreseen
+/// costs more than it gains.
+[[nodiscard]] inline bool are_cut_quads(const Triangles& triangles) noexcept {
+  constexpr Index kLooked = 32;
+  if (triangles.count < kLooked) return false;
+  Index single_count = 0;
+  for_each_quad(
+      triangles.corners, kLooked, [](auto, const Index*) {}, [&](const Index*) { ++single_count; });
+  return single_count <= kLooked / 8;
+}
+
 template <bool kInside, class Groups>
 void add_areas(const Triangles& triangles, const TermSums& to, const Groups& groups) noexcept {
-  const SumsById sums(to.block);
+  const AreaAdder adder(groups.points, to.block);
   for_each_touching<kInside>(
       triangles, to, groups,
       [&](const Index* corners) __attribute__((always_inline)) {
         if (groups.has_last(corners)) [[unlikely]]
           return false;
 #pragma GCC unroll 8
-        for (Index i = 0; i < Groups::kSize; ++i, corners += 3) {
-          // Loaded before the first sum is stored, which might be an index for all that the
-          // compiler knows.
-          const Index a = corners[0];
-          const Index b = corners[1];
-          const Index c = corners[2];
-          const __m128 row = area_row(groups.points[a], groups.points[b], groups.points[c]);
-          add_row(sums[a], row);
-          add_row(sums[b], row);
-          add_row(sums[c], row);
-        }
+        for (Index i = 0; i < Groups::kSize; ++i) adder.add_triangle(corners + 3 * i);
         return true;
       },
       [&](const Index* corners, std::uint64_t in_block) {
         if (groups.has_last(corners)) [[unlikely]]
           return false;
         for (std::uint64_t left = in_block; left != 0; left >>= 3, corners += 3) {
-          if ((left & 7) == 0) continue;
-          const __m128 row = area_row(groups.points[corners[0]], groups.points[corners[1]],
-                                      groups.points[corners[2]]);
-          for (int k = 0; k < 3; ++k) {
-            if ((left >> k & 1) != 0) add_row(sums[corners[k]], row);
-          }
+          if ((left & 7) != 0) adder.add_some(corners, left);
         }
         return true;
       });
 }
 
+/// The same for triangles that are cut quads for the most part. \pre all corners are in the block
+template <class Groups, class Rest>
+void add_quads(const Triangles& triangles, const TermSums& to, const Groups& groups,
+               const Rest& rest) noexcept {
+  const AreaAdder adder(groups.points, to.block);
+  for_each_group(
+      triangles, groups,
+      [&](Index, const Index* corners) __attribute__((always_inline)) {
+        if (groups.has_last(corners)) [[unlikely]]
+          return false;
+        for_each_quad(
+            corners, Groups::kSize,
+            [&](auto turned, const Index* quad)
+                __attribute__((always_inline)) { adder.template add_quad<turned()>(quad); },
+            [&](const Index* triangle)
+                __attribute__((always_inline)) { adder.add_triangle(triangle); });
+        return true;
+      },
+      [&](Index, const Triangles& few) { rest(few); });
+}
+
 /// The two tasks of term_rows.h for areas.
-template <class Corners>
+template <template <Index> class Corners>
 void fill_area_rows(const Triangles& triangles, const Points& points, TermRow* rows) noexcept {
   with_point_rows(points, [&]<class Rows>(const Rows& point_rows) {
-    fill_groups(triangles, points, AreaGroups<Corners, Rows>{point_rows}, rows);
+    fill_groups(triangles, points, AreaGroups<Corners<8>, Rows>{point_rows}, rows);
   });
 }
-template <class Corners>
+template <template <Index> class Corners>
 void add_all_areas(const Triangles& triangles, const TermSums& to) noexcept {
   with_point_rows(to.points, [&]<class Rows>(const Rows& point_rows) {
-    const AreaGroups<Corners, Rows> groups{point_rows};
-    to.is_inside ? add_areas<true>(triangles, to, groups) : add_areas<false>(triangles, to, groups);
+    const AreaGroups<Corners<8>, Rows> groups{point_rows};
+    if (!to.is_inside) {
+      add_areas<false>(triangles, to, groups);
+    } else if (are_cut_quads(triangles)) {
+      add_quads(triangles, to, AreaGroups<Corners<32>, Rows>{point_rows},
+                [&](const Triangles& few) { add_areas<true>(few, to, groups); });
+    } else {
+      add_areas<true>(triangles, to, groups);
+    }
   });
 }
 

@@ -11,14 +11,16 @@ namespace hedgerow::kernels {
 
 namespace {
 
-struct Corners8 {
-  static constexpr Index kSize = 8;
+template <Index kTriangles>
+struct Corners {
+  static constexpr Index kSize = kTriangles;
+  static constexpr Index kVectors = 3 * kSize / 8;
 
   static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
     const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
     const __m256i last = _mm256_set1_epi32(static_cast<int>(block.size - 1));
     unsigned bits = 0;
-    for (int j = 0; j < 3; ++j) {
+    for (Index j = 0; j < kVectors; ++j) {
       const __m256i local = _mm256_sub_epi32(load_indices(corners + 8 * j), begin);
       const __m256i is_in = _mm256_cmpeq_epi32(_mm256_min_epu32(local, last), local);
       bits |= static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_in))) << 8 * j;
@@ -27,10 +29,10 @@ struct Corners8 {
   }
   [[gnu::always_inline]] static bool is_among(const Index* corners, Index v) noexcept {
     const __m256i wanted = _mm256_set1_epi32(static_cast<int>(v));
-    const auto is = [&](int j) {
-      return _mm256_cmpeq_epi32(load_indices(corners + 8 * j), wanted);
-    };
-    const __m256i any = _mm256_or_si256(_mm256_or_si256(is(0), is(1)), is(2));
+    __m256i any = _mm256_setzero_si256();
+    for (Index j = 0; j < kVectors; ++j) {
+      any = _mm256_or_si256(any, _mm256_cmpeq_epi32(load_indices(corners + 8 * j), wanted));
+    }
     return _mm256_testz_si256(any, any) == 0;
   }
 };
@@ -41,7 +43,7 @@ struct UnitGroups {
   static constexpr NormalWeight kWeight = NormalWeight::uniform;
   static constexpr auto fill_rest = fill_term_rows_sse;
   static constexpr auto add_rest = add_terms_sse;
-  static constexpr Index kSize = Corners8::kSize;
+  static constexpr Index kSize = 8;
 
   const Loader& loader;
 
@@ -49,7 +51,7 @@ struct UnitGroups {
     loader.prefetch(corners, left);
   }
   static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
-    return Corners8::inside(corners, block);
+    return Corners<kSize>::inside(corners, block);
   }
   [[gnu::always_inline]] bool make(const Index* corners, __m128* rows) const noexcept {
     Vec3<Float8> p[3];
@@ -68,7 +70,7 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
                          TermRow* rows) noexcept {
   with_weight(weight, [&](auto w) {
     if constexpr (w() == NormalWeight::area)
-      return fill_area_rows<Corners8>(triangles, points, rows);
+      return fill_area_rows<Corners>(triangles, points, rows);
     with_loader(points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
         fill_weighed<w()>(triangles, loader, rows, [&](const Triangles& few, TermRow* to) {
@@ -83,7 +85,7 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
 
 void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
-    if constexpr (w() == NormalWeight::area) return add_all_areas<Corners8>(triangles, to);
+    if constexpr (w() == NormalWeight::area) return add_all_areas<Corners>(triangles, to);
     with_loader(to.points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
         add_all_weighed<w()>(triangles, to, loader,

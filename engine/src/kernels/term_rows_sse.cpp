@@ -63,7 +63,7 @@ void fill_term_rows_sse(const Triangles& triangles, const Points& points, Normal
                         TermRow* rows) noexcept {
   with_weight(weight, [&](auto w) {
     if constexpr (w() == NormalWeight::area) {
-      fill_area_rows<Corners<8>>(triangles, points, rows);
+      fill_area_rows<Corners>(triangles, points, rows);
     } else {
       fill_groups(triangles, points, Groups4<w()>{points}, rows);
     }
@@ -73,7 +73,7 @@ void fill_term_rows_sse(const Triangles& triangles, const Points& points, Normal
 void add_terms_sse(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
     if constexpr (w() == NormalWeight::area) {
-      add_all_areas<Corners<8>>(triangles, to);
+      add_all_areas<Corners>(triangles, to);
     } else {
       add_all_groups(triangles, to, Groups4<w()>{to.points});
     }
