@@ -3,7 +3,9 @@
 
 #include "kernels/term_rows.h"
 
+#include <algorithm>
 #include <cstring>
+#include <initializer_list>
 #include <random>
 #include <span>
 #include <vector>
@@ -12,6 +14,7 @@
 
 #include "hedgerow/buffer.h"
 #include "kernels/gather_normals.h"
+#include "kernels/pair_windows.h"
 #include "support/normal_meshes.h"
 
 namespace hedgerow {
@@ -80,14 +83,12 @@ TEST(TermRows, AreTheSameInEveryForm) {
   }
 }
 
-TEST(TermRows, AddUpTheSameInEveryFormInsideABlockAndAcross) {
-  const Index count = 150;
-  const Soup soup = random_triangles(5, count);
-  const kernels::Points points{soup.positions()};
-  const Triangles triangles{soup.corners.data(), count, 3 * count};
+// Adds triangles to the sums of blocks of vertices, by every form.
+void expect_same_sums(const kernels::Points& points, const Triangles& triangles,
+                      std::initializer_list<IndexRange> blocks) {
   for (const NormalWeight weight : test::kWeights) {
-    for (const IndexRange range : {IndexRange{0, 40}, IndexRange{7, 19}, IndexRange{39, 40}}) {
-      const bool is_inside = range.size() == 40;
+    for (const IndexRange range : blocks) {
+      const bool is_inside = range.size() == points.positions.count;
       const auto sums_of = [&](auto add) {
         Buffer<TermRow> sums(static_cast<std::size_t>(range.size()), TermRow{});
         add(triangles, {points, weight, {range.begin, range.size(), sums.data()}, is_inside});
@@ -100,6 +101,72 @@ TEST(TermRows, AddUpTheSameInEveryFormInsideABlockAndAcross) {
       }
     }
   }
+}
+
+TEST(TermRows, AddUpTheSameInEveryFormInsideABlockAndAcross) {
+  const Index count = 150;
+  const Soup soup = random_triangles(5, count);
+  expect_same_sums({soup.positions()}, {soup.corners.data(), count, 3 * count},
+                   {{0, 40}, {7, 19}, {39, 40}});
+}
+
+// Triangles of which pairs repeat along rows of vertices, by patterns of all kinds: the six corners
+// of a pair lie near one another, so that they meet each vertex in every possible order, or far
+// apart; a triangle may have a vertex twice. Each row is broken off somewhere, and some positions
+// are too large for float.
+std::vector<Index> rows_of_pairs(std::mt19937& random, Index vertex_count) {
+  std::vector<Index> corners;
+  Index pattern[6] = {};
+  for (int row = 0; row < 12; ++row) {
+    const Index spread = random() % 2 == 0 ? 5 : 90;
+    const auto pairs = static_cast<Index>(random() % 70);
+    for (Index& c : std::span(pattern).subspan(row % 4 == 1 ? 3 : 0)) {
+      c = static_cast<Index>(random() % static_cast<unsigned>(spread));
+    }
+    if (row % 3 == 0) std::ranges::copy(std::vector<Index>{1, 2, 82, 1, 82, 81}, pattern);
+    if (row % 6 == 3) std::ranges::copy(std::vector<Index>{1, 82, 0, 0, 82, 81}, pattern);
+    const Index start = static_cast<Index>(random() % 40);
+    for (Index i = 0; i < pairs && start + i + 90 <= vertex_count; ++i) {
+      for (const Index c : pattern) corners.push_back(start + c + i);
+    }
+    for (unsigned i = random() % 4; i > 0; --i) {
+      for (int k = 0; k < 3; ++k) {
+        corners.push_back(static_cast<Index>(random() % static_cast<unsigned>(vertex_count)));
+      }
+    }
+  }
+  return corners;
+}
+
+TEST(TermRows, AddUpTheSameForPairsThatStepByOne) {
+  constexpr Index kVertices = 200;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::mt19937 random(seed);
+    const std::vector<Index> corners = rows_of_pairs(random, kVertices);
+    std::vector<float> xyz(3 * kVertices);
+    for (float& x : xyz) x = static_cast<float>(random() % 1000) * 0.37F;
+    if (seed % 3 == 0) xyz[random() % xyz.size()] = 1e25F;
+    const auto count = static_cast<Index>(corners.size() / 3);
+    expect_same_sums({{xyz.data(), kVertices}}, {corners.data(), count, 3 * count},
+                     {{0, kVertices}, {30, 130}, {100, kVertices}});
+  }
+}
+
+TEST(PairWindows, OfCutCellsAreTheRowsOnTheirSides) {
+  kernels::PairWindows windows;
+  const Index cell[] = {7, 8, 18, 7, 18, 17};  // rows of ten vertices
+  ASSERT_TRUE(windows.find(cell));
+  ASSERT_EQ(windows.end() - windows.begin(), 2);
+  const kernels::PairWindow& upper = windows.begin()[0];
+  EXPECT_EQ(upper.first, 10);
+  EXPECT_EQ(std::vector<int>(upper.high, upper.high + 2), (std::vector<int>{2, 1}));
+  EXPECT_EQ(std::vector<int>(upper.low, upper.low + 2), (std::vector<int>{-1, 2}));
+  const kernels::PairWindow& lower = windows.begin()[1];
+  EXPECT_EQ(lower.first, 0);
+  EXPECT_EQ(std::vector<int>(lower.high, lower.high + 2), (std::vector<int>{1, -1}));
+  EXPECT_EQ(std::vector<int>(lower.low, lower.low + 2), (std::vector<int>{0, 0}));
+  const Index twice[] = {7, 8, 7, 7, 18, 17};
+  EXPECT_FALSE(windows.find(twice));
 }
 
 class Window : public testing::Test {

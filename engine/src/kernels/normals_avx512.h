@@ -43,6 +43,21 @@ namespace {
           _mm512_shuffle_ps(z_low, z_high, 0x44)};
 }
 
+/// Sixteen vectors as rows x, y, z, w: row[j] has those of lanes j, j + 4, j + 8 and j + 12.
+struct QuarteredRows {
+  __m512 row[4];
+};
+[[nodiscard, gnu::always_inline]] inline QuarteredRows to_quartered_rows(const Vec3<Float16>& v,
+                                                                         float w) noexcept {
+  const __m512 last = _mm512_set1_ps(w);
+  const __m512 xy_low = _mm512_unpacklo_ps(v.x.bits, v.y.bits);
+  const __m512 xy_high = _mm512_unpackhi_ps(v.x.bits, v.y.bits);
+  const __m512 zw_low = _mm512_unpacklo_ps(v.z.bits, last);
+  const __m512 zw_high = _mm512_unpackhi_ps(v.z.bits, last);
+  return {{_mm512_shuffle_ps(xy_low, zw_low, 0x44), _mm512_shuffle_ps(xy_low, zw_low, 0xee),
+           _mm512_shuffle_ps(xy_high, zw_high, 0x44), _mm512_shuffle_ps(xy_high, zw_high, 0xee)}};
+}
+
 inline void write(const Writer8& writer8, Index first, const Vec3<Float16>& units) noexcept {
   writer8.write(first, low_half(units));
   writer8.write(first + 8, high_half(units));
@@ -88,16 +103,9 @@ class TriangleLoader16 {
   /// Such lanes and `w` as rows, in the order of the triangles.
   [[gnu::always_inline]] static void store_turned(const Vec3<Float16>& v, float w,
                                                   __m128* rows) noexcept {
-    const __m512 last = _mm512_set1_ps(w);
-    const __m512 xy_low = _mm512_unpacklo_ps(v.x.bits, v.y.bits);
-    const __m512 xy_high = _mm512_unpackhi_ps(v.x.bits, v.y.bits);
-    const __m512 zw_low = _mm512_unpacklo_ps(v.z.bits, last);
-    const __m512 zw_high = _mm512_unpackhi_ps(v.z.bits, last);
+    const QuarteredRows quarters = to_quartered_rows(v, w);
     auto* to = reinterpret_cast<float*>(rows);
-    _mm512_store_ps(to, _mm512_shuffle_ps(xy_low, zw_low, 0x44));
-    _mm512_store_ps(to + 16, _mm512_shuffle_ps(xy_low, zw_low, 0xee));
-    _mm512_store_ps(to + 32, _mm512_shuffle_ps(xy_high, zw_high, 0x44));
-    _mm512_store_ps(to + 48, _mm512_shuffle_ps(xy_high, zw_high, 0xee));
+    for (int j = 0; j < 4; ++j) _mm512_store_ps(to + 16 * j, quarters.row[j]);
   }
 
  private:

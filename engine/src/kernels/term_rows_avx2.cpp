@@ -2,6 +2,8 @@
 
 #include "kernels/area_terms.h"
 #include "kernels/normals_avx2.h"
+#include "kernels/pair_lanes_avx2.h"
+#include "kernels/pair_runs.h"
 #include "kernels/term_groups.h"
 #include "kernels/weighed_terms.h"
 
@@ -88,8 +90,10 @@ void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
     if constexpr (w() == NormalWeight::area) return add_all_areas<Corners>(triangles, to);
     with_loader(to.points, [&]<class Loader>(const Loader& loader) {
       if constexpr (rows_of(w()) == 3) {
-        add_all_weighed<w()>(triangles, to, loader,
-                             [&](const Triangles& few) { add_terms_sse(few, to); });
+        add_pair_runs<w(), PairLanes8>(triangles, to, [&](const Triangles& others) {
+          add_all_weighed<w()>(others, to, loader,
+                               [&](const Triangles& few) { add_terms_sse(few, to); });
+        });
       } else {
         add_all_groups(triangles, to, UnitGroups<Loader>{loader});
       }

@@ -1,6 +1,8 @@
 // Sixteen triangles at a time, where that pays: where the corners of one differ.
 
 #include "kernels/normals_avx512.h"
+#include "kernels/pair_lanes_avx512.h"
+#include "kernels/pair_runs.h"
 #include "kernels/weighed_terms.h"
 
 namespace hedgerow::kernels {
@@ -26,8 +28,10 @@ void add_terms_avx512(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
     if constexpr (rows_of(w()) == 3) {
       with_loader16(to.points, [&](const auto& loader) {
-        add_all_weighed<w()>(triangles, to, loader,
-                             [&](const Triangles& few) { add_terms_avx2(few, to); });
+        add_pair_runs<w(), PairLanes16>(triangles, to, [&](const Triangles& others) {
+          add_all_weighed<w()>(others, to, loader,
+                               [&](const Triangles& few) { add_terms_avx2(few, to); });
+        });
       });
     } else {
       add_terms_avx2(triangles, to);
