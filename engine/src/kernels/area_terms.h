@@ -105,11 +105,14 @@ class AreaAdder {
   }
 
   /// What a triangle adds to those of its corners whose bit of `wanted` is set.
-  void add_some(const Index* corners, std::uint64_t wanted) const noexcept {
-    const __m128 row = area_row(points_[corners[0]], points_[corners[1]], points_[corners[2]]);
-    for (int k = 0; k < 3; ++k) {
-      if ((wanted >> k & 1) != 0) add_row(sums_[corners[k]], row);
-    }
+  [[gnu::always_inline]] void add_some(const Index* corners, std::uint64_t wanted) const noexcept {
+    const Index a = corners[0];
+    const Index b = corners[1];
+    const Index c = corners[2];
+    const __m128 row = area_row(points_[a], points_[b], points_[c]);
+    if ((wanted & 1) != 0) add_row(sums_[a], row);
+    if ((wanted & 2) != 0) add_row(sums_[b], row);
+    if ((wanted & 4) != 0) add_row(sums_[c], row);
   }
 
  private:

@@ -36,6 +36,7 @@ struct Mask4 {
   friend Mask4 operator&(Mask4 a, Mask4 b) noexcept { return {_mm_and_ps(a.bits, b.bits)}; }
   /// Bit i: lane i.
   [[nodiscard]] int lanes() const noexcept { return _mm_movemask_ps(bits); }
+  [[nodiscard]] bool all() const noexcept { return lanes() == 0xf; }
 };
 
 struct Float4 {

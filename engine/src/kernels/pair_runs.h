@@ -7,12 +7,12 @@
 #include "kernels/pair_windows.h"
 #include "kernels/term_rows.h"
 
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 
-#include <immintrin.h>
+#include <xmmintrin.h>
 
-/// The terms of weights that differ between corners, for runs of pairs (pair_windows.h): positions
-/// and sums lie in a row, so nothing is gathered, and whole vectors are added.
+/// Terms by lanes for runs of pairs (pair_windows.h): positions and sums lie in a row, so nothing is
+/// gathered, and whole vectors are added. (Areas need no lanes, and are quick without: area_terms.h.)
 ///
 /// `Lanes` says how wide that is:
 ///
@@ -51,7 +51,7 @@ class PairTerms {
       return false;
     for (int t = 0; t < 2; ++t) finish_terms<W>(terms_[t]);
     for (int t = 0; t < 2; ++t) {
-      corner_weights<W>(terms_[t], weights_[t]);
+      if constexpr (kIsWeighed) corner_weights<W>(terms_[t], weights_[t]);
       rows_[t] = Lanes::to_rows(terms_[t].base, 1);
     }
     return true;
@@ -82,11 +82,13 @@ class PairTerms {
   using Float = typename Lanes::Float;
   using Rows = typename Lanes::Rows;
   using Points = Vec3<Float>;
+  static constexpr bool kIsWeighed = rows_of(W) == 3;
 
   [[gnu::always_inline]] Points load(Index first) const noexcept {
     return lanes_.load(positions_ + 3 * static_cast<std::ptrdiff_t>(first));
   }
   [[gnu::always_inline]] Rows weighed(int triangle, int corner) const noexcept {
+    if constexpr (!kIsWeighed) return rows_[triangle];
     return Lanes::scaled(rows_[triangle], weights_[triangle][corner]);
   }
 

@@ -87,17 +87,20 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
 
 void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
-    if constexpr (w() == NormalWeight::area) return add_all_areas<Corners>(triangles, to);
-    with_loader(to.points, [&]<class Loader>(const Loader& loader) {
-      if constexpr (rows_of(w()) == 3) {
-        add_pair_runs<w(), PairLanes8>(triangles, to, [&](const Triangles& others) {
-          add_all_weighed<w()>(others, to, loader,
-                               [&](const Triangles& few) { add_terms_sse(few, to); });
+    if constexpr (w() == NormalWeight::area) {
+      add_all_areas<Corners>(triangles, to);
+    } else {
+      add_pair_runs<w(), PairLanes8>(triangles, to, [&](const Triangles& others) {
+        with_loader(to.points, [&]<class Loader>(const Loader& loader) {
+          if constexpr (rows_of(w()) == 3) {
+            add_all_weighed<w()>(others, to, loader,
+                                 [&](const Triangles& few) { add_terms_sse(few, to); });
+          } else {
+            add_all_groups(others, to, UnitGroups<Loader>{loader});
+          }
         });
-      } else {
-        add_all_groups(triangles, to, UnitGroups<Loader>{loader});
-      }
-    });
+      });
+    }
   });
 }
 

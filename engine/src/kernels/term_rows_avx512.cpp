@@ -26,15 +26,19 @@ void fill_term_rows_avx512(const Triangles& triangles, const Points& points, Nor
 
 void add_terms_avx512(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
-    if constexpr (rows_of(w()) == 3) {
-      with_loader16(to.points, [&](const auto& loader) {
-        add_pair_runs<w(), PairLanes16>(triangles, to, [&](const Triangles& others) {
-          add_all_weighed<w()>(others, to, loader,
-                               [&](const Triangles& few) { add_terms_avx2(few, to); });
-        });
-      });
+    const auto add_few = [&](const Triangles& few) { add_terms_avx2(few, to); };
+    if constexpr (w() == NormalWeight::area) {
+      add_few(triangles);
     } else {
-      add_terms_avx2(triangles, to);
+      add_pair_runs<w(), PairLanes16>(triangles, to, [&](const Triangles& others) {
+        if constexpr (rows_of(w()) == 3) {
+          with_loader16(to.points, [&](const auto& loader) {
+            add_all_weighed<w()>(others, to, loader, add_few);
+          });
+        } else {
+          add_few(others);
+        }
+      });
     }
   });
 }

@@ -2,6 +2,8 @@
 
 #include "kernels/area_terms.h"
 #include "kernels/normals_sse.h"
+#include "kernels/pair_lanes_sse.h"
+#include "kernels/pair_runs.h"
 #include "kernels/term_groups.h"
 
 namespace hedgerow::kernels {
@@ -75,7 +77,9 @@ void add_terms_sse(const Triangles& triangles, const TermSums& to) noexcept {
     if constexpr (w() == NormalWeight::area) {
       add_all_areas<Corners>(triangles, to);
     } else {
-      add_all_groups(triangles, to, Groups4<w()>{to.points});
+      add_pair_runs<w(), PairLanes4>(triangles, to, [&](const Triangles& others) {
+        add_all_groups(others, to, Groups4<w()>{to.points});
+      });
     }
   });
 }
