@@ -11,14 +11,14 @@
 
 #include <xmmintrin.h>
 
-/// Terms by lanes for runs of pairs (pair_windows.h): positions and sums lie in a row, so nothing is
-/// gathered, and whole vectors are added. (Areas need no lanes, and are quick without: area_terms.h.)
+/// Terms by lanes for runs of pairs (pair_windows.h): positions and sums lie in a row, so nothing
+/// is gathered, and whole vectors are added. Areas have a loop of their own (area_terms.h).
 ///
 /// `Lanes` says how wide that is:
 ///
-///   using Float                               a pair a lane, so lane i is pair_of(i)
-///   using Rows                                four vectors of rows x, y, z, w, in the order of pairs
-///   static constexpr Index kPairs             as many as a Float has lanes
+///   using Float                               lane i has pair_of(i) of kPairs pairs
+///   using Rows                                four vectors of rows x, y, z, w by ascending pair
+///   static constexpr Index kPairs
 ///   bool is_run(const Index* corners)         whether the corners of kPairs pairs step by one
 ///   Vec3<Float> load(const float* positions)  of kPairs vertices in a row
 ///   static Rows to_rows(Vec3<Float>, float w)

@@ -89,7 +89,7 @@ class SumsById {
 };
 
 // Calls all(corners) for groups that lie in the block, and some(corners, bits) for those that touch
-// it, where bit c says that corner c is in the block. Both return false if the plain form is needed.
+// it, where bit c says that corner c is in it. Both return false if the plain form is needed.
 template <bool kInside, class Groups, class All, class Some>
 [[gnu::always_inline]] inline void for_each_touching(const Triangles& triangles, const TermSums& to,
                                                      const Groups& groups, const All& all,
