@@ -110,7 +110,7 @@ template <Index kPairs>
   const std::ptrdiff_t ahead =
       std::min<std::ptrdiff_t>(run.index_count - kRunCorners, 3 * kCornersAhead);
   for (std::ptrdiff_t i = 0; i < kRunCorners; i += kLine) {
-    _mm_prefetch(reinterpret_cast<const char*>(run.corners + ahead + i), _MM_HINT_T0);
+    _mm_prefetch(reinterpret_cast<const char*>(run.corners + ahead + i), _MM_HINT_T1);
   }
   for (const PairWindow& window : windows) {
     const std::ptrdiff_t first = run.corners[0] + window.first + kPointsAhead;

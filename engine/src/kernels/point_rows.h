@@ -43,7 +43,7 @@ class PointRows {
   [[gnu::always_inline]] void prefetch(const Index* corners, std::ptrdiff_t left) const noexcept {
     const Index* far = corners + std::min<std::ptrdiff_t>(left, 3 * kCornersAhead);
     for (Index i = 0; i < 3 * kTriangles; i += 16) {
-      _mm_prefetch(reinterpret_cast<const char*>(far + i), _MM_HINT_T0);
+      _mm_prefetch(reinterpret_cast<const char*>(far + i), _MM_HINT_T1);
     }
     const Index* near = corners + std::min<std::ptrdiff_t>(left, 3 * kPointsAhead);
     for (Index k = 0; k < 3 * kTriangles; k += kCornerStep) {
