@@ -1,8 +1,11 @@
 // Four triangles at a time: twelve 16-byte loads and three transposes instead of 36 loads of a
 // float, and one square root and one division for four. PERF.md, "face normals".
 
+#include <cstddef>
+
 #include "kernels/face_normals.h"
 #include "kernels/normals_sse.h"
+#include "kernels/point_rows.h"
 
 namespace hedgerow::kernels {
 
@@ -10,39 +13,51 @@ namespace hedgerow::kernels {
 
 namespace {
 
-// Four float3 in a row are three vectors exactly.
-void store_packed(float* out, const Rows& r) noexcept {
-  const __m128 z0x1 = _mm_shuffle_ps(r.row[0], r.row[1], _MM_SHUFFLE(0, 0, 2, 2));
-  const __m128 z2x3 = _mm_shuffle_ps(r.row[2], r.row[3], _MM_SHUFFLE(0, 0, 2, 2));
-  _mm_storeu_ps(out, _mm_shuffle_ps(r.row[0], z0x1, _MM_SHUFFLE(2, 0, 1, 0)));
-  _mm_storeu_ps(out + 4, _mm_shuffle_ps(r.row[1], r.row[2], _MM_SHUFFLE(1, 0, 2, 1)));
-  _mm_storeu_ps(out + 8, _mm_shuffle_ps(z2x3, r.row[3], _MM_SHUFFLE(2, 1, 2, 0)));
+// Whether a corner of four triangles is the last vertex.
+[[gnu::always_inline]] inline bool has_last(const Index* corners, Index last) noexcept {
+  Index any = 0;
+  for (int c = 0; c < 12; ++c) any |= corners[c] == last ? Index{1} : Index{0};
+  return any != 0;
+}
+
+template <class Rows4>
+NormalStats groups_of_four(IndexRange range, const Index* corners, const Points& points,
+                           const Rows4& rows, const NormalWriter& writer) noexcept {
+  NormalStats stats;
+  const bool is_packed = writer.out.stride_bytes == sizeof(Float3);
+  const Index* const end = corners + 3 * static_cast<std::ptrdiff_t>(range.size());
+  const auto load = [&](const Index* v) __attribute__((always_inline)) {
+    return to_lanes(rows[v[0]], rows[v[3]], rows[v[6]], rows[v[9]]);
+  };
+  Index f = range.begin;
+  for (; f + 4 <= range.end; f += 4, corners += 12) {
+    rows.template prefetch<4>(corners, end - corners - 12);
+    TriangleTerms<Float4> terms;
+    const bool is_plain = has_last(corners, rows.last()) ||
+                          !triangle_terms<NormalWeight::uniform>(load(corners), load(corners + 1),
+                                                                 load(corners + 2), terms)
+                               .all();
+    if (is_plain) [[unlikely]] {
+      stats = merge(stats, triangle_normals_scalar({f, f + 4}, corners, points, writer));
+      continue;
+    }
+    const Rows units = to_rows(terms.base, 0);
+    if (is_packed) {
+      store_packed(writer.out[f], units);
+    } else {
+      for (Index i = 0; i < 4; ++i) writer.write(f + i, to_float3(units.row[i]));
+    }
+  }
+  return merge(stats, triangle_normals_scalar({f, range.end}, corners, points, writer));
 }
 
 }  // namespace
 
 NormalStats triangle_normals_sse(IndexRange range, const Index* corners, const Points& points,
                                  const NormalWriter& writer) noexcept {
-  NormalStats stats;
-  const bool is_packed = writer.out.stride_bytes == sizeof(Float3);
-  Index f = range.begin;
-  for (; f + 4 <= range.end; f += 4, corners += 12) {
-    TriangleTerms<Float4> terms;
-    const Mask4 usual = triangle_terms<NormalWeight::uniform>(
-        load_points(points, corners, 3), load_points(points, corners + 1, 3),
-        load_points(points, corners + 2, 3), terms);
-    if (usual.lanes() != 15) [[unlikely]] {
-      stats = merge(stats, triangle_normals_scalar({f, f + 4}, corners, points, writer));
-      continue;
-    }
-    const Rows rows = to_rows(terms.base, 0);
-    if (is_packed) {
-      store_packed(writer.out[f], rows);
-    } else {
-      for (Index i = 0; i < 4; ++i) writer.write(f + i, to_float3(rows.row[i]));
-    }
-  }
-  return merge(stats, triangle_normals_scalar({f, range.end}, corners, points, writer));
+  return with_point_rows(points, [&](const auto& rows) {
+    return groups_of_four(range, corners, points, rows, writer);
+  });
 }
 
 #else

@@ -77,7 +77,7 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                         Index& again_count) noexcept {
   return has_avx2() ? finish_sums_avx2(block, writer, again_count)
-                    : finish_sums_scalar(block, writer, again_count);
+                    : finish_sums_sse(block, writer, again_count);
 }
 
 NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer,

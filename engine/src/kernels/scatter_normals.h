@@ -29,9 +29,11 @@ void scatter_faces(IndexRange range, const ScatterInput& input, const SumBlock& 
 [[nodiscard]] NormalStats finish_sums(const SumBlock& block, const NormalWriter& writer,
                                       Index& again_count) noexcept;
 
-/// The plain form, and eight sums at a time (\pre the processor has AVX2).
+/// The plain form; four sums at a time; and eight (\pre the processor has AVX2).
 [[nodiscard]] NormalStats finish_sums_scalar(const SumBlock& block, const NormalWriter& writer,
                                              Index& again_count) noexcept;
+[[nodiscard]] NormalStats finish_sums_sse(const SumBlock& block, const NormalWriter& writer,
+                                          Index& again_count) noexcept;
 [[nodiscard]] NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
                                            Index& again_count) noexcept;
 

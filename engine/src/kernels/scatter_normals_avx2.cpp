@@ -57,7 +57,7 @@ CornerBounds native_bounds_avx2(const Index* corners, Index count) noexcept {
 
 NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
                              Index& again_count) noexcept {
-  return finish_sums_scalar(block, writer, again_count);
+  return finish_sums_sse(block, writer, again_count);
 }
 
 CornerBounds native_bounds_avx2(const Index* corners, Index count) noexcept {
