@@ -13,13 +13,6 @@ namespace hedgerow::kernels {
 
 namespace {
 
-// Whether a corner of four triangles is the last vertex.
-[[gnu::always_inline]] inline bool has_last(const Index* corners, Index last) noexcept {
-  Index any = 0;
-  for (int c = 0; c < 12; ++c) any |= corners[c] == last ? Index{1} : Index{0};
-  return any != 0;
-}
-
 template <class Rows4>
 NormalStats groups_of_four(IndexRange range, const Index* corners, const Points& points,
                            const Rows4& rows, const NormalWriter& writer) noexcept {
@@ -33,7 +26,7 @@ NormalStats groups_of_four(IndexRange range, const Index* corners, const Points&
   for (; f + 4 <= range.end; f += 4, corners += 12) {
     rows.template prefetch<4>(corners, end - corners - 12);
     TriangleTerms<Float4> terms;
-    const bool is_plain = has_last(corners, rows.last()) ||
+    const bool is_plain = is_among<12>(corners, rows.last()) ||
                           !triangle_terms<NormalWeight::uniform>(load(corners), load(corners + 1),
                                                                  load(corners + 2), terms)
                                .all();

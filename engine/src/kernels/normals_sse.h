@@ -17,6 +17,14 @@ namespace hedgerow::kernels {
   return _mm_movelh_ps(xy, _mm_load_ss(p + 2));
 }
 
+/// Whether v is among `kCorners` corners.
+template <Index kCorners>
+[[nodiscard, gnu::always_inline]] inline bool is_among(const Index* corners, Index v) noexcept {
+  Index any = 0;  // as wide as the indices, so that it becomes a vector
+  for (Index c = 0; c < kCorners; ++c) any |= corners[c] == v ? Index{1} : Index{0};
+  return any != 0;
+}
+
 /// Four vectors x, y, z and what lies behind them, as lanes.
 [[nodiscard, gnu::always_inline]] inline Vec3<Float4> to_lanes(__m128 a, __m128 b, __m128 c,
                                                                __m128 d) noexcept {

@@ -1,4 +1,5 @@
-// Sixteen triangles at a time, where that pays: where the corners of one differ.
+// Sixteen triangles at a time, where that pays: in rows of vertices, or where the corners of one
+// differ.
 
 #include "kernels/normals_avx512.h"
 #include "kernels/pair_lanes_avx512.h"

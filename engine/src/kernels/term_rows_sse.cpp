@@ -22,9 +22,7 @@ struct Corners {
     return bits;
   }
   [[gnu::always_inline]] static bool is_among(const Index* corners, Index v) noexcept {
-    Index any = 0;  // as wide as the indices, so that it becomes a vector
-    for (int c = 0; c < 3 * kSize; ++c) any |= corners[c] == v ? Index{1} : Index{0};
-    return any != 0;
+    return kernels::is_among<3 * kSize>(corners, v);
   }
 };
 
