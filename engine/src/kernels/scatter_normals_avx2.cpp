@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/normals_avx2.h"
+#include "kernels/prefetch.h"
 #include "kernels/scatter_normals.h"
 
 namespace hedgerow::kernels {
@@ -43,14 +44,27 @@ NormalStats finish_sums_avx2(const SumBlock& block, const NormalWriter& writer,
 }
 
 CornerBounds native_bounds_avx2(const Index* corners, Index count) noexcept {
-  const int* c = reinterpret_cast<const int*>(corners);
-  int smallest = c[0];
-  int largest = c[0];
-  for (Index i = 0; i < count; ++i) {
-    smallest = c[i] < smallest ? c[i] : smallest;
-    largest = c[i] > largest ? c[i] : largest;
+  constexpr Index kLine = 16;
+  __m256i smallest = _mm256_set1_epi32(static_cast<int>(corners[0]));
+  __m256i largest = smallest;
+  Index i = 0;
+  for (; i + kLine <= count; i += kLine) {
+    prefetch_ahead(corners + i);
+    const __m256i first = load_indices(corners + i);
+    const __m256i second = load_indices(corners + i + 8);
+    smallest = _mm256_min_epi32(smallest, _mm256_min_epi32(first, second));
+    largest = _mm256_max_epi32(largest, _mm256_max_epi32(first, second));
   }
-  return {smallest, largest};
+  alignas(32) int lanes[2][8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lanes[0]), smallest);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lanes[1]), largest);
+  CornerBounds bounds{*std::min_element(lanes[0], lanes[0] + 8),
+                      *std::max_element(lanes[1], lanes[1] + 8)};
+  for (; i < count; ++i) {
+    bounds.smallest = std::min<std::int64_t>(bounds.smallest, corners[i]);
+    bounds.largest = std::max<std::int64_t>(bounds.largest, corners[i]);
+  }
+  return bounds;
 }
 
 #else
