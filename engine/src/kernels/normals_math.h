@@ -57,7 +57,8 @@ template <class Condition, class T>
   return kept(condition, whole) + negated(condition, a);
 }
 
-// The angle in [0, pi / 2] of which `adjacent`, not below 0, is the dot product.
+// The angle in [0, pi / 2] of which `adjacent`, not below 0, is the dot product. One of the
+// two is not 0.
 //
 // atan(t) = t + t^3 P(t^2) for t <= tan(pi / 8), found by the exchange algorithm: off by 4.9e-9 at
 // the most before rounding. Larger slopes are first turned by pi / 4, where
@@ -69,7 +70,7 @@ template <class T>
   const auto is_steep = low > high * T(0.41421356f);
   const T numerator = less_where(is_steep, low, high);
   const T denominator = more_where(is_steep, high, low);
-  const T t = numerator / larger(denominator, T(0x1p-149f));  // 0 / 0 is no angle
+  const T t = numerator / denominator;
   const T s = t * t;
   T p = T(0x1.43ae18p-4f) * s + T(-0x1.1b1f8ap-3f);
   p = p * s + T(0x1.99062p-3f);
@@ -80,7 +81,8 @@ template <class T>
 
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T angle_of(T cross_length, T dot_product) noexcept {
-  const T acute = acute_angle_of(cross_length, magnitude(dot_product));
+  // 0 / 0 is no angle.
+  const T acute = acute_angle_of(cross_length, larger(magnitude(dot_product), T(0x1p-149f)));
   return rest_where(dot_product < T(0.0f), acute, T(kPi));
 }
 
@@ -134,9 +136,10 @@ template <NormalWeight W, class T>
     terms.factor[0] = dot(u, v);
     terms.factor[1] = T(0.0f) - dot(u, w);
     terms.factor[2] = dot(v, w);
-    // Half the sum of the squares of the edges: |u|^2 is the sum of the first two, and so on.
+    // Half the sum of the squares of the edges: |u|^2 is the sum of the first two, and so on. Its
+    // square is no less than that of the area vector.
     const T extent = (terms.factor[0] + terms.factor[1]) + terms.factor[2];
-    return is_usual(square) & (extent <= T(0.5f * kLargeSquare));
+    return (square >= T(kSmallSquare)) & (extent <= T(0x1p60f));
   } else {
     const Vec3<T> w = p2 - p1;
     const T uu = dot(u, u);
