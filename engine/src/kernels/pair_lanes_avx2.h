@@ -96,6 +96,24 @@ class PairLanes8 {
     return _mm256_extractf128_ps(rows.row[3], 1);
   }
 
+  /// x, y, z and no matter what of two vertices in a row: the `part`-th of four such.
+  [[nodiscard, gnu::always_inline]] static __m256 position_row(const float* p, int part) noexcept {
+    const __m128 first = _mm_loadu_ps(p + 6 * part);
+    if (part < 3)
+      return _mm256_insertf128_ps(_mm256_castps128_ps256(first), _mm_loadu_ps(p + 6 * part + 3), 1);
+    const __m128 second = _mm_loadu_ps(p + 20);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(first), _mm_shuffle_ps(second, second, 0x39),
+                                1);
+  }
+  [[nodiscard, gnu::always_inline]] static __m256 area_row(__m256 p0, __m256 p1,
+                                                           __m256 p2) noexcept {
+    const auto turned = [](__m256 v) { return _mm256_permute_ps(v, 0xc9); };
+    const __m256 u = _mm256_sub_ps(p0, p1);
+    const __m256 v = _mm256_sub_ps(p0, p2);
+    const __m256 zxy = _mm256_sub_ps(_mm256_mul_ps(u, turned(v)), _mm256_mul_ps(turned(u), v));
+    return _mm256_blend_ps(turned(zxy), _mm256_set1_ps(1), 0x88);
+  }
+
  private:
   // As `TriangleLoader::load_turned` has triangles.
   static constexpr int pair_of(int lane) noexcept { return 2 * (lane % 4) + lane / 4; }

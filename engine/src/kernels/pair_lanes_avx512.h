@@ -43,6 +43,9 @@ class PairLanes16 {
       of_two_[q] = _mm512_load_si512(numbers[2]);
       of_three_[q] = _mm512_load_si512(numbers[3]);
     }
+    for (int i = 0; i < 16; ++i) numbers[0][i] = 3 * (i / 4) + i % 4 % 3;
+    of_row_ = _mm512_load_si512(numbers[0]);
+    of_last_row_ = _mm512_add_epi32(of_row_, _mm512_set1_epi32(4));
   }
 
   [[gnu::always_inline]] bool is_run(const Index* corners) const noexcept {
@@ -97,6 +100,20 @@ class PairLanes16 {
     return _mm512_extractf32x4_ps(rows.row[3], 3);
   }
 
+  /// x, y, z and no matter what of four vertices in a row: the `part`-th of four such.
+  [[nodiscard, gnu::always_inline]] __m512 position_row(const float* p, int part) const noexcept {
+    return part < 3 ? _mm512_permutexvar_ps(of_row_, _mm512_loadu_ps(p + 12 * part))
+                    : _mm512_permutexvar_ps(of_last_row_, _mm512_loadu_ps(p + 32));
+  }
+  [[nodiscard, gnu::always_inline]] static __m512 area_row(__m512 p0, __m512 p1,
+                                                           __m512 p2) noexcept {
+    const auto turned = [](__m512 v) { return _mm512_permute_ps(v, 0xc9); };
+    const __m512 u = _mm512_sub_ps(p0, p1);
+    const __m512 v = _mm512_sub_ps(p0, p2);
+    const __m512 zxy = _mm512_sub_ps(_mm512_mul_ps(u, turned(v)), _mm512_mul_ps(turned(u), v));
+    return _mm512_mask_permute_ps(_mm512_set1_ps(1), 0x7777, zxy, 0xc9);
+  }
+
  private:
   // As `TriangleLoader16::load_turned` has triangles.
   static constexpr int pair_of(int lane) noexcept { return 4 * (lane % 4) + lane / 4; }
@@ -107,6 +124,9 @@ class PairLanes16 {
   // Where in three vectors of positions a coordinate of each pair is: first of two, then of three.
   __m512i of_two_[3];
   __m512i of_three_[3];
+  // Where in a vector x, y and z of four vertices are; and of the last four, in the last vector.
+  __m512i of_row_;
+  __m512i of_last_row_;
 };
 
 }  // namespace

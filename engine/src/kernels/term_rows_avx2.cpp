@@ -1,6 +1,7 @@
 // Eight triangles at a time, a lane each; areas one after the other, as rows.
 
 #include "kernels/area_terms.h"
+#include "kernels/corners_avx2.h"
 #include "kernels/normals_avx2.h"
 #include "kernels/pair_lanes_avx2.h"
 #include "kernels/pair_runs.h"
@@ -12,32 +13,6 @@ namespace hedgerow::kernels {
 #if defined(__AVX2__)
 
 namespace {
-
-template <Index kTriangles>
-struct Corners {
-  static constexpr Index kSize = kTriangles;
-  static constexpr Index kVectors = 3 * kSize / 8;
-
-  static std::uint64_t inside(const Index* corners, const SumBlock& block) noexcept {
-    const __m256i begin = _mm256_set1_epi32(static_cast<int>(block.begin));
-    const __m256i last = _mm256_set1_epi32(static_cast<int>(block.size - 1));
-    unsigned bits = 0;
-    for (Index j = 0; j < kVectors; ++j) {
-      const __m256i local = _mm256_sub_epi32(load_indices(corners + 8 * j), begin);
-      const __m256i is_in = _mm256_cmpeq_epi32(_mm256_min_epu32(local, last), local);
-      bits |= static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_in))) << 8 * j;
-    }
-    return bits;
-  }
-  [[gnu::always_inline]] static bool is_among(const Index* corners, Index v) noexcept {
-    const __m256i wanted = _mm256_set1_epi32(static_cast<int>(v));
-    __m256i any = _mm256_setzero_si256();
-    for (Index j = 0; j < kVectors; ++j) {
-      any = _mm256_or_si256(any, _mm256_cmpeq_epi32(load_indices(corners + 8 * j), wanted));
-    }
-    return _mm256_testz_si256(any, any) == 0;
-  }
-};
 
 // Unit normals: eight triangles, a lane each, turned into rows.
 template <class Loader>
@@ -87,10 +62,10 @@ void fill_term_rows_avx2(const Triangles& triangles, const Points& points, Norma
 
 void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
   with_weight(to.weight, [&](auto w) {
-    if constexpr (w() == NormalWeight::area) {
-      add_all_areas<Corners>(triangles, to);
-    } else {
-      add_pair_runs<w(), PairLanes8>(triangles, to, [&](const Triangles& others) {
+    add_pair_runs<w(), PairLanes8>(triangles, to, [&](const Triangles& others) {
+      if constexpr (w() == NormalWeight::area) {
+        add_all_areas<Corners>(others, to);
+      } else {
         with_loader(to.points, [&]<class Loader>(const Loader& loader) {
           if constexpr (rows_of(w()) == 3) {
             add_all_weighed<w()>(others, to, loader,
@@ -99,8 +74,8 @@ void add_terms_avx2(const Triangles& triangles, const TermSums& to) noexcept {
             add_all_groups(others, to, UnitGroups<Loader>{loader});
           }
         });
-      });
-    }
+      }
+    });
   });
 }
 
