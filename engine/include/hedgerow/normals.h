@@ -105,9 +105,10 @@ inline constexpr double kAngleErrorBound = 3e-7;
 /// sum is normalised.
 ///
 /// Pre        positions.count and out.count >= faces.vertex_count; out overlaps no input.
-/// Race-free in parallel because a block of vertices is owned by one task, which visits the runs of
-/// faces that touch the block in ascending order and adds to its own vertices only; so the order of
-/// each sum is that of the serial loop. Faces on the edge between blocks are computed for each.
+/// Race-free in parallel because blocks of vertices are owned by one task, which visits the runs of
+/// faces that touch them in ascending order and adds to its own vertices only; so the order of each
+/// sum is that of the serial loop. Faces on the edge between tasks are computed for each. Where
+/// faces and vertices are in one order, the sums of a task are those of a window that slides along.
 /// Complexity O(V + H) for faces in a local order. On shuffled input every block visits every
 ///            face: O(threads * H), which two threads still gain from.
 ///            Bytes a vertex on a closed triangle mesh: 48.
