@@ -14,8 +14,8 @@
 namespace hedgerow {
 namespace {
 
-constexpr Index kBlock =
-    2048;  // vertices: a window of so many holds a run of faces of a narrow mesh
+// Vertices: a window of so many holds a run of faces of a narrow mesh.
+constexpr Index kBlock = 2048;
 
 // Narrow and long, so that few vertices are needed at once.
 Soup ribbon() { return *shapes::grid(10, 6000); }
@@ -47,10 +47,10 @@ Soup with_gap(const Soup& soup, Index begin, Index count) {
 // next one is.
 Soup with_extremes(const Soup& soup) {
   Soup copy = test::copy_of(soup);
-  for (std::size_t i = 0; i + 5 < copy.xyz.size(); i += 300) {
+  for (std::size_t i = 0; i + 156 <= copy.xyz.size(); i += 300) {
     copy.xyz[i] = 1e25F;
-    std::copy_n(copy.xyz.begin() + static_cast<std::ptrdiff_t>(i) + 153, 3,
-                copy.xyz.begin() + static_cast<std::ptrdiff_t>(i) + 150);
+    float* const xyz = copy.xyz.data() + i + 150;
+    std::copy_n(xyz + 3, 3, xyz);
   }
   return copy;
 }
@@ -101,7 +101,9 @@ TEST(SlidingSums, SlideWhereFacesAndVerticesAreInOneOrder) {
 }
 
 TEST(SlidingSums, HaveTheSameBitsAsAWindowOverAllVertices) {
-  for (const auto& [name, soup] : soups()) {
+  for (const auto& named : soups()) {
+    const std::string& name = named.first;
+    const Soup& soup = named.second;
     const Connectivity mesh = test::mesh_of(soup);
     for (const NormalWeight weight : test::kWeights) {
       NormalOptions options;

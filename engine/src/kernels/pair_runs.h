@@ -12,7 +12,7 @@
 
 #include <xmmintrin.h>
 
-/// Terms of runs of pairs (pair_windows.h): positions and sums lie in a row, so nothing is gathered,
+/// Terms of runs of pairs (pair_windows.h): positions and sums lie in rows, so nothing is gathered,
 /// and whole vectors are added.
 ///
 /// `Lanes` says how wide that is:
