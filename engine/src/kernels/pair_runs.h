@@ -51,9 +51,15 @@ class PairTerms {
     const Points p1 = load(corners[1]);
     const Points p2 = load(corners[2]);
     const auto first = begin_terms<W>(p0, p1, p2, terms_[0]);
-    // Most often the pair is a cut quad.
-    const Points p3 = corners[3] == corners[0] ? p0 : load(corners[3]);
-    const Points p4 = corners[4] == corners[2] ? p2 : load(corners[4]);
+    Points p3 = p0;
+    Points p4 = p2;
+    if (is_turned_quad(corners)) {
+      p3 = p2;
+      p4 = p1;
+    } else if (!is_cut_quad(corners)) {
+      p3 = load(corners[3]);
+      p4 = load(corners[4]);
+    }
     const auto second = begin_terms<W>(p3, p4, load(corners[5]), terms_[1]);
     if (!(first & second).all()) [[unlikely]]
       return false;
@@ -107,6 +113,13 @@ class PairTerms<NormalWeight::area, Lanes> {
         const auto p2 = row(2, part);
         rows_[0].row[part] = Lanes::area_row(p0, row(1, part), p2);
         rows_[1].row[part] = Lanes::area_row(p0, p2, row(5, part));
+      }
+    } else if (is_turned_quad(corners)) [[likely]] {
+      for (int part = 0; part < 4; ++part) {
+        const auto p1 = row(1, part);
+        const auto p2 = row(2, part);
+        rows_[0].row[part] = Lanes::area_row(row(0, part), p1, p2);
+        rows_[1].row[part] = Lanes::area_row(p2, p1, row(5, part));
       }
     } else {
       for (int t = 0; t < 2; ++t) {
@@ -173,6 +186,14 @@ template <Index kPairs>
   }
 }
 
+// Whether not the first two triangles are a quad cut in two, but the next two are: pairs that are
+// quads have half as many windows.
+[[nodiscard, gnu::always_inline]] inline bool begins_late(const Index* corners) noexcept {
+  if (is_cut_quad(corners) || is_turned_quad(corners)) [[likely]]
+    return false;
+  return is_cut_quad(corners + 3) || is_turned_quad(corners + 3);
+}
+
 // Whether each window of a run lies in the block as a whole or not at all.
 template <Index kPairs>
 [[nodiscard]] inline bool are_whole(const PairWindows& windows, Index origin,
@@ -210,7 +231,8 @@ void add_pair_runs(const Triangles& triangles, const TermSums& to, const Rest& r
     return true;
   };
   Index done = 0;
-  for (Index i = 0; i + 2 * kPairs <= triangles.count; i += 2 * kPairs) {
+  Index i = 0;
+  while (i + 2 * kPairs <= triangles.count) {
     const Triangles run = triangles.part(i, 2 * kPairs);
     if (!lanes.is_run(run.corners)) {
       // Not later, as only the corners that follow these are on their way to the cache.
@@ -218,12 +240,16 @@ void add_pair_runs(const Triangles& triangles, const TermSums& to, const Rest& r
         rest(triangles.part(done, i - done));
         done = i;
       }
-      continue;
+      i += 2 * kPairs;
+    } else if (begins_late(run.corners)) {
+      ++i;
+    } else {
+      if (done < i) rest(triangles.part(done, i - done));
+      prefetch_pairs<kPairs>(run, windows, to.points.positions.data);
+      if (!add(run.corners)) rest(run);
+      i += 2 * kPairs;
+      done = i;
     }
-    if (done < i) rest(triangles.part(done, i - done));
-    prefetch_pairs<kPairs>(run, windows, to.points.positions.data);
-    if (!add(run.corners)) rest(run);
-    done = i + 2 * kPairs;
   }
   if (done < triangles.count) rest(triangles.part(done, triangles.count - done));
 }
