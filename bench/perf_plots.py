@@ -138,9 +138,10 @@ def roofline(pyplot, results, counts):
         edge = peak / rate
         axis.plot([low, min(edge, high), high], [low * rate, min(edge, high) * rate, min(peak, high * rate)],
                   color="#555555", linewidth=1)
-        axis.annotate(f"triad, {count} thread{'s' if count > 1 else ''}", (low, low * rate),
-                      fontsize=8, color="#555555", rotation=35,
-                      va="bottom" if count == max(threads) else "top")
+        # Along the flat part, where no other roof is near.
+        axis.annotate(f"triad and issue, {count} thread{'s' if count > 1 else ''}",
+                      (high, min(peak, high * rate)), fontsize=8, color="#555555", ha="right",
+                      va="bottom")
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("counted instructions a byte that had to move")
